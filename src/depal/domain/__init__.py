@@ -2,8 +2,8 @@
 
 from depal.domain.box import Box, Detection, Perceived, Recognition
 from depal.domain.delivery import (
-    PALLET_FRONT_X,
     EURO_PALLET,
+    PALLET_FRONT_X,
     Delivery,
     DeliveryLine,
     StackedCase,
@@ -16,8 +16,8 @@ from depal.domain.request import Request
 from depal.domain.settings import checked_share
 
 __all__ = [
-    "PALLET_FRONT_X",
     "EURO_PALLET",
+    "PALLET_FRONT_X",
     "Box",
     "BoxId",
     "Delivery",

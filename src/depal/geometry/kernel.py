@@ -11,7 +11,9 @@ F = TypeVar("F", bound=Callable[..., object])
 def kernel(function: F) -> F:
     """Compiles a function over arrays with numba, once per machine (cached on disk).
 
-    A kernel releases the interpreter lock and follows numpy's rules for division. With
-    NUMBA_DISABLE_JIT=1 it stays plain Python, which is how its branches are measured.
+    A kernel releases the interpreter lock, follows numpy's rules for division, and is inlined
+    where another kernel calls it. With NUMBA_DISABLE_JIT=1 it stays plain Python, which is how
+    its branches are measured.
     """
-    return cast("F", numba.njit(cache=True, nogil=True, error_model="numpy")(function))
+    compiler = numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
+    return cast("F", compiler(function))

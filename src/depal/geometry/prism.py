@@ -65,76 +65,63 @@ def _fold(c: float, s: float) -> tuple[float, float]:
 
 
 @kernel
-def lateral_interval(prism: Array) -> tuple[float, float]:
-    """The prism's extent along y [m]."""
-    reach = abs(prism[SIN]) * prism[HALF_LENGTH] + abs(prism[COS]) * prism[HALF_WIDTH]
-    return prism[Y] - reach, prism[Y] + reach
+def lateral_interval(prisms: Array, a: int) -> tuple[float, float]:
+    """The extent along y of the prism in row a [m]."""
+    reach = (
+        abs(prisms[a, SIN]) * prisms[a, HALF_LENGTH] + abs(prisms[a, COS]) * prisms[a, HALF_WIDTH]
+    )
+    return prisms[a, Y] - reach, prisms[a, Y] + reach
 
 
 @kernel
-def slice_at(prism: Array, y: float) -> tuple[float, float]:
-    """Where the line at height y in the ground plane cuts the prism's rectangle: x interval [m].
+def slice_at(prisms: Array, a: int, y: float) -> tuple[float, float]:
+    """Where the line at height y in the ground plane cuts the rectangle of row a: x interval [m].
 
     The line must cross the rectangle.
     """
-    c, s, dy = prism[COS], prism[SIN], y - prism[Y]
-    low, high = -math.inf, math.inf
-    # In the rectangle's own axes a point is (c dx + s dy, c dy - s dx), within +- half edges.
-    if abs(c) > _TILTED:
-        low = max(low, (-prism[HALF_LENGTH] - s * dy) / c)
-        high = min(high, (prism[HALF_LENGTH] - s * dy) / c)
-    if abs(s) > _TILTED:
-        first, second = (c * dy - prism[HALF_WIDTH]) / s, (c * dy + prism[HALF_WIDTH]) / s
-        low, high = max(low, min(first, second)), min(high, max(first, second))
-    return prism[X] + low, prism[X] + high
+    c, s, dy = prisms[a, COS], prisms[a, SIN], y - prisms[a, Y]
+    if abs(s) <= _TILTED:
+        return prisms[a, X] - prisms[a, HALF_LENGTH], prisms[a, X] + prisms[a, HALF_LENGTH]
+    # In the rectangle's own axes a point is (c dx + s dy, c dy - s dx), within +- half edges;
+    # c is at least cos 45 deg, for yaws are folded.
+    low, high = (-prisms[a, HALF_LENGTH] - s * dy) / c, (prisms[a, HALF_LENGTH] - s * dy) / c
+    first, second = (c * dy - prisms[a, HALF_WIDTH]) / s, (c * dy + prisms[a, HALF_WIDTH]) / s
+    low, high = max(low, min(first, second)), min(high, max(first, second))
+    return prisms[a, X] + low, prisms[a, X] + high
 
 
 @kernel
-def footprint_overlap(a: Array, b: Array) -> float:
-    """How deep the rectangles of two prisms reach into each other on the ground [m].
+def footprint_overlap(prisms: Array, a: int, b: int) -> float:
+    """How deep the rectangles of two rows reach into each other on the ground [m].
 
     The smallest shift that parts them, by the separating axis theorem; not positive when they
     are apart (then it is minus the widest gap along one of the four edge directions).
     """
-    dx, dy = b[X] - a[X], b[Y] - a[Y]
-    turn_c = a[COS] * b[COS] + a[SIN] * b[SIN]
-    turn_s = a[COS] * b[SIN] - a[SIN] * b[COS]
-    turn_c, turn_s = abs(turn_c), abs(turn_s)
-    depth = (
-        a[HALF_LENGTH]
-        + turn_c * b[HALF_LENGTH]
-        + turn_s * b[HALF_WIDTH]
-        - abs(a[COS] * dx + a[SIN] * dy)
-    )
-    depth = min(
-        depth,
-        a[HALF_WIDTH]
-        + turn_s * b[HALF_LENGTH]
-        + turn_c * b[HALF_WIDTH]
-        - abs(a[COS] * dy - a[SIN] * dx),
-    )
-    depth = min(
-        depth,
-        b[HALF_LENGTH]
-        + turn_c * a[HALF_LENGTH]
-        + turn_s * a[HALF_WIDTH]
-        - abs(b[COS] * dx + b[SIN] * dy),
-    )
+    return min(_depth_along_edges(prisms, a, b), _depth_along_edges(prisms, b, a))
+
+
+@kernel
+def _depth_along_edges(prisms: Array, a: int, b: int) -> float:
+    """How deep the rectangles reach into each other along a's two edge directions [m]."""
+    dx, dy = prisms[b, X] - prisms[a, X], prisms[b, Y] - prisms[a, Y]
+    cos_a, sin_a, cos_b, sin_b = prisms[a, COS], prisms[a, SIN], prisms[b, COS], prisms[b, SIN]
+    turn_c = abs(cos_a * cos_b + sin_a * sin_b)
+    turn_s = abs(cos_a * sin_b - sin_a * cos_b)
+    length, width = prisms[b, HALF_LENGTH], prisms[b, HALF_WIDTH]
+    along = prisms[a, HALF_LENGTH] + turn_c * length + turn_s * width
+    across = prisms[a, HALF_WIDTH] + turn_s * length + turn_c * width
     return min(
-        depth,
-        b[HALF_WIDTH]
-        + turn_s * a[HALF_LENGTH]
-        + turn_c * a[HALF_WIDTH]
-        - abs(b[COS] * dy - b[SIN] * dx),
+        float(along - abs(cos_a * dx + sin_a * dy)), float(across - abs(cos_a * dy - sin_a * dx))
     )
 
 
 @kernel
-def holds_centre(a: Array, b: Array) -> bool:
-    """Whether the centre of b lies strictly inside a."""
-    dx, dy, dz = b[X] - a[X], b[Y] - a[Y], b[Z] - a[Z]
+def holds_centre(prisms: Array, a: int, b: int) -> bool:
+    """Whether the centre of row b lies strictly inside row a."""
+    dx, dy = prisms[b, X] - prisms[a, X], prisms[b, Y] - prisms[a, Y]
+    c, s = prisms[a, COS], prisms[a, SIN]
     return bool(
-        abs(dz) < a[HALF_HEIGHT]
-        and abs(a[COS] * dx + a[SIN] * dy) < a[HALF_LENGTH]
-        and abs(a[COS] * dy - a[SIN] * dx) < a[HALF_WIDTH]
+        abs(prisms[b, Z] - prisms[a, Z]) < prisms[a, HALF_HEIGHT]
+        and abs(c * dx + s * dy) < prisms[a, HALF_LENGTH]
+        and abs(c * dy - s * dx) < prisms[a, HALF_WIDTH]
     )

@@ -1,0 +1,1 @@
+"""Where the parts meet: what a command does, from its options to its report."""

@@ -1,0 +1,23 @@
+"""Results for people and for programs: tables, pictures and JSON fields of each study."""
+
+from depal.app.reports.bench import bench_report
+from depal.app.reports.case2 import case2_report
+from depal.app.reports.fig4 import fig4_report
+from depal.app.reports.fig5 import fig5_report
+from depal.app.reports.fig8 import fig8_report
+from depal.app.reports.fig9 import fig9_report
+from depal.app.reports.report import Report
+from depal.app.reports.table1 import table1_report
+from depal.app.reports.unload import unload_report
+
+__all__ = [
+    "Report",
+    "bench_report",
+    "case2_report",
+    "fig4_report",
+    "fig5_report",
+    "fig8_report",
+    "fig9_report",
+    "table1_report",
+    "unload_report",
+]

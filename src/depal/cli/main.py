@@ -1,0 +1,96 @@
+"""`depal`: the commands, and how they fail."""
+
+import json
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+from rich.console import Console
+
+from depal import __version__
+from depal.cli.bench import bench
+from depal.cli.delivery import delivery
+from depal.cli.output import console
+from depal.cli.study import study
+from depal.errors import DepalError, InputError, SettingError, did_you_mean
+
+app = typer.Typer(
+    help="An open depalletizing cell for the back room of a supermarket.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.add_typer(study, name="study")
+app.add_typer(bench, name="bench")
+app.add_typer(delivery, name="delivery")
+
+
+def main() -> None:
+    """Runs a command; what is wrong with an input is one message and exit status 2."""
+    try:
+        app()
+    except InputError as error:
+        _say(error)
+        sys.exit(2)
+    except DepalError as error:
+        _say(error)
+        sys.exit(1)
+
+
+def _say(error: DepalError) -> None:
+    Console(stderr=True, soft_wrap=True).print(
+        f"error: {error}", style="red", markup=False, highlight=False
+    )
+
+
+def _version(wanted: bool) -> None:  # noqa: FBT001 - typer's callback
+    if wanted:
+        typer.echo(f"depal {__version__}")
+        raise typer.Exit
+
+
+@app.callback()
+def _depal(
+    *,
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Say the version.")
+    ] = False,
+) -> None:
+    """Holds the options of `depal` itself."""
+    del version
+
+
+@app.command()
+def schema(
+    name: Annotated[str, typer.Argument(help="delivery or requests")] = "",
+) -> None:
+    """Print the JSON Schema of a format."""
+    from depal.logistics import delivery_schema, requests_schema  # noqa: PLC0415 - fast help
+
+    schemas = {"delivery": delivery_schema, "requests": requests_schema}
+    if name not in schemas:
+        what = f"unknown format {name!r}" if name else "no format named"
+        raise SettingError("depal schema", what, exists=did_you_mean(name, schemas))
+    typer.echo(json.dumps(schemas[name](), indent=2))
+
+
+@app.command()
+def doctor(
+    json_file: Annotated[
+        Path | None, typer.Option("--json", help="Write the findings to this file.")
+    ] = None,
+) -> None:
+    """Say what works on this machine; exit status 1 where something that is needed does not."""
+    from depal.app.doctor import examine  # noqa: PLC0415 - fast help
+    from depal.app.files import write_json  # noqa: PLC0415
+
+    findings = examine()
+    marks = {True: "[green]works[/]  ", False: "[red]BROKEN[/] ", None: "[dim]missing[/]"}
+    for finding in findings:
+        console().print(f"{marks[finding.works]} {finding.name}: {finding.detail}", highlight=False)
+    if json_file is not None:
+        write_json(json_file, {"findings": [finding.fields for finding in findings]})
+    if any(finding.works is False for finding in findings):
+        raise typer.Exit(1)

@@ -1,0 +1,39 @@
+"""Which box next: section II-C, Eqs. (1)-(3) and Algorithm 1."""
+
+from depal.selection.decision import Decision, Fate, Outcome, Refused, Scores, Verdict
+from depal.selection.graph import Blocker, BlockingGraph, link_prisms
+from depal.selection.relations import EXACT, PERCEIVED, Relation, Tolerances
+from depal.selection.score import (
+    PAPER_WEIGHTS,
+    PositionWeights,
+    ScoreRule,
+    geometric_rank,
+    position_priority,
+)
+from depal.selection.select import LeafAlone, leaf_alone, select
+from depal.selection.wanted import Aim
+
+__all__ = [
+    "EXACT",
+    "PAPER_WEIGHTS",
+    "PERCEIVED",
+    "Aim",
+    "Blocker",
+    "BlockingGraph",
+    "Decision",
+    "Fate",
+    "LeafAlone",
+    "Outcome",
+    "PositionWeights",
+    "Refused",
+    "Relation",
+    "ScoreRule",
+    "Scores",
+    "Tolerances",
+    "Verdict",
+    "geometric_rank",
+    "leaf_alone",
+    "link_prisms",
+    "position_priority",
+    "select",
+]

@@ -1,0 +1,93 @@
+"""Algorithm 1: which box next, with every reason.
+
+The paper's loop of lines 15-22 pops boxes until one can be grasped and never ends when none
+can; here it ends in a named outcome with a reason for each box.
+"""
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TypeVar
+
+import numpy as np
+
+from depal.domain import Perceived, Request
+from depal.selection.decision import Decision, Outcome, Refused, Scores
+from depal.selection.graph import BlockingGraph
+from depal.selection.score import ScoreRule, mixed_score, position_priority, stepped
+from depal.selection.walks import blocker_table, find_cycle, propagate
+from depal.selection.wanted import Aim, aims_of, strongest_first
+
+G = TypeVar("G")
+
+
+@dataclass(frozen=True, slots=True)
+class LeafAlone:
+    """The grasp of the studies: whatever nothing blocks can be taken."""
+
+
+def leaf_alone(_: Perceived) -> LeafAlone:
+    """The reachability test of case study 1: every leaf of G has a reachable pose."""
+    return LeafAlone()
+
+
+def select(
+    graph: BlockingGraph,
+    requests: Iterable[Request],
+    rule: ScoreRule,
+    grasp_for: Callable[[Perceived], G | Refused],
+) -> Decision[G]:
+    """One call of BOXSELECTION.
+
+    Args:
+        graph: the perceived boxes and what blocks them (lines 3 and 5).
+        requests: what is wanted now (line 2); what nothing has seen yet stays pending.
+        rule: w, x_max and the weights of h.
+        grasp_for: lines 17 and 18: a reachable grasp of a box, or why there is none. It is
+            asked for boxes that nothing blocks, by falling score, until one can be grasped.
+
+    Returns:
+        The decision; its target is to be stored next (lines 19 and 23).
+    """
+    aims, pending = aims_of(graph, requests)
+    scores, rank = _scored(graph, aims, rule)
+    free = scores.slots[graph.links.blockers[scores.slots] == 0]
+    refusals: dict[int, str] = {}
+    target, grasp = None, None
+    for slot in free.tolist():
+        answer = grasp_for(graph.at(slot))
+        if not isinstance(answer, Refused):
+            target, grasp = graph.at(slot), answer
+            break
+        refusals[slot] = answer.reason
+    return Decision(
+        outcome=_outcome(graph, target),
+        target=target,
+        grasp=grasp,
+        aims=aims,
+        pending=pending,
+        cycle=tuple(graph.at(slot).id for slot in find_cycle(graph.links, rank)),
+        rule=rule,
+        scores=scores,
+        boxes={slot: graph.at(slot) for slot in scores.slots.tolist()},
+        blocker_table=blocker_table(graph.links),
+        refusals=refusals,
+    )
+
+
+def _scored(
+    graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule
+) -> tuple[Scores, np.ndarray[tuple[int], np.dtype[np.int64]]]:
+    """Lines 6-13: every box with h, l and s, and the queue ordered by s."""
+    h = position_priority(graph.prisms, rule.x_max, rule.weights)
+    l = propagate(graph.links, *strongest_first(graph, aims))  # noqa: E741 - the paper's name
+    s = mixed_score(h, l, rule.w)
+    rank = graph.geometric_rank()
+    used = graph.used_slots
+    queue = used[np.lexsort((rank[used], -stepped(s[used])))]
+    return Scores(queue, h, l, s), rank
+
+
+def _outcome(graph: BlockingGraph, target: Perceived | None) -> Outcome:
+    if target is not None:
+        return Outcome.CHOSEN
+    return Outcome.NOTHING_CAN_BE_GRASPED if len(graph) else Outcome.NOTHING_PERCEIVED

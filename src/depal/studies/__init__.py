@@ -1,0 +1,1 @@
+"""The paper's case studies, and the benchmarks of the parts."""

@@ -1,0 +1,98 @@
+"""Many independent pieces of work, on whatever there is to do them."""
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from contextlib import contextmanager
+from multiprocessing import get_context
+from typing import TypeVar, cast
+
+from depal.errors import DepalError, MissingPartError, SettingError
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+Progress = Callable[[int, int], None]
+"""Told how many pieces are done, of how many."""
+
+
+def no_progress(done: int, total: int) -> None:
+    """Says nothing."""
+    del done, total
+
+
+def sweep(
+    work: Callable[[T], R],
+    pieces: Sequence[T],
+    executor: Executor | None = None,
+    progress: Progress = no_progress,
+) -> list[R]:
+    """Does every piece and returns the results in the order of the pieces.
+
+    Args:
+        work: a pure function that pickles; it gets one piece.
+        pieces: what to work on; each carries its own seed, so that the results depend neither
+            on the number of workers nor on who is first.
+        executor: any executor; None works in this process.
+        progress: called after each piece.
+
+    Returns:
+        One result a piece.
+    """
+    results: list[R | None] = [None] * len(pieces)
+    progress(0, len(pieces))
+    if executor is None:
+        for index, piece in enumerate(pieces):
+            results[index] = work(piece)
+            progress(index + 1, len(pieces))
+    else:
+        futures = {executor.submit(work, piece): index for index, piece in enumerate(pieces)}
+        for done, future in enumerate(as_completed(futures), start=1):
+            results[futures[future]] = future.result()
+            progress(done, len(pieces))
+    return cast("list[R]", results)
+
+
+@contextmanager
+def executor_for(workers: int, dask: str | None = None) -> Iterator[Executor | None]:
+    """The executor that the options ask for.
+
+    Args:
+        workers: how many processes; 1 works in this process.
+        dask: the address of a Dask scheduler, which wins over `workers`.
+
+    Yields:
+        The executor, or None for this process.
+
+    Raises:
+        SettingError: the number of workers is not positive.
+        MissingPartError: Dask is asked for and not installed.
+        DepalError: no scheduler answers at the address.
+    """
+    if dask is not None:
+        with _dask_executor(dask) as executor:
+            yield executor
+        return
+    if workers < 1:
+        raise SettingError("--workers", f"{workers} workers cannot work", "1 or more")
+    if workers == 1:
+        yield None
+        return
+    # Spawned, not forked: a fork would copy the progress bar's thread in whatever state it is.
+    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as executor:
+        yield executor
+
+
+@contextmanager
+def _dask_executor(address: str) -> Iterator[Executor]:
+    try:
+        from distributed import Client  # noqa: PLC0415 - an extra
+    except ImportError as error:
+        message = "Dask is not installed; pip install 'depal[dask]'"
+        raise MissingPartError(message) from error
+    try:
+        client = Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError) as error:
+        message = f"--dask {address}: no Dask scheduler answers there; expected tcp://HOST:PORT"
+        raise DepalError(message) from error
+    with client:
+        yield cast("Executor", client.get_executor(pure=False))
