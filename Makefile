@@ -6,6 +6,8 @@
 PYTHON ?= python3
 BIN := .venv/bin
 OUT ?= out
+COVERAGE := --cov=depal.domain --cov=depal.geometry --cov=depal.selection --cov=depal.errors \
+	--cov-branch --cov-report=term-missing:skip-covered --cov-fail-under=100
 
 .PHONY: run test check figures clean
 
@@ -18,7 +20,8 @@ run: .venv/.installed
 
 test: check
 	@find src -name '*.nb[ic]' -delete
-	$(BIN)/python scripts/test.py
+	$(BIN)/pytest -q -n 2
+	NUMBA_DISABLE_JIT=1 $(BIN)/pytest -q tests/domain tests/geometry tests/selection $(COVERAGE)
 
 check: .venv/.installed
 	$(BIN)/ruff format --check .

@@ -58,6 +58,10 @@ class DepalError(Exception):
     """Anything that depal raises on purpose."""
 
 
+PRINTED = 50
+"""How many problems one message spells out; the error itself holds all of them."""
+
+
 class InputError(DepalError):
     """Something that was given cannot be used; nothing was done with it.
 
@@ -70,14 +74,19 @@ class InputError(DepalError):
         """Joins the problems into one message."""
         self.source = source
         self.problems = tuple(problems)
-        lines = [str(problem) for problem in self.problems]
-        if not source:
-            message = "\n".join(lines)
-        elif len(lines) == 1:
-            message = f"{source}: {lines[0]}"
-        else:
-            message = f"{source}: {len(lines)} problems" + "".join(f"\n  {line}" for line in lines)
+        lines = [str(problem) for problem in self.problems[:PRINTED]]
+        if len(self.problems) > PRINTED:
+            lines.append(f"and {len(self.problems) - PRINTED} more")
+        if len(lines) > 1:
+            lines = [f"{len(self.problems)} problems", *lines]
+        message = "\n  ".join(lines)
+        if source:
+            message = f"{source}: {message}"
         super().__init__(message)
+
+    def __reduce__(self) -> tuple[type["InputError"], tuple[str, Sequence[Problem]]]:
+        """Lets the error travel from a worker's process."""
+        return (InputError, (self.source, self.problems))
 
 
 class DeliveryError(InputError):

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from rich.console import RenderableType
+
 from depal.app.files import Json
 from depal.app.reports.report import Report, plain_table
 from depal.app.unload import deliveries_of
@@ -28,8 +30,15 @@ def check_delivery(reference: str, requests: Path | None) -> Report:
         asked = sum(len(read_requests(requests, delivery)) for delivery in deliveries)
     title = f"{reference}: {len(deliveries)} valid {_plural('delivery', len(deliveries))}"
     table = plain_table(
-        title, "delivery", "products", "boxes", "mass [kg]", "height [m]", "smallest side [m]",
-        "largest side [m]", "stack",
+        title,
+        "delivery",
+        "products",
+        "boxes",
+        "mass [kg]",
+        "height [m]",
+        "smallest side [m]",
+        "largest side [m]",
+        "stack",
     )
     for delivery in deliveries:
         height = stack_height(delivery)
@@ -44,7 +53,9 @@ def check_delivery(reference: str, requests: Path | None) -> Report:
             f"{max(sides):.3f}",
             "note only" if delivery.stack is None else "known",
         )
-    shown = [table] if requests is None else [table, f"{requests}: {asked} valid requests"]
+    shown: list[RenderableType] = (
+        [table] if requests is None else [table, f"{requests}: {asked} valid requests"]
+    )
     fields: dict[str, Json] = {
         "deliveries": [_fields(delivery) for delivery in deliveries],
         "requests": asked,

@@ -1,6 +1,7 @@
 """What works on this machine."""
 
 import importlib.util
+import io
 import os
 import platform
 import sys
@@ -15,8 +16,8 @@ import numpy as np
 from depal import __version__
 from depal.app.files import Json
 from depal.logistics import shipped_deliveries
-from depal.selection.walks import propagate
 from depal.selection.links import Links
+from depal.selection.walks import propagate
 
 _OLDEST_PYTHON = (3, 11)
 _NEEDED = ("numpy", "scipy", "numba", "pydantic", "typer", "rich", "matplotlib", "biip", "PyYAML")
@@ -48,9 +49,17 @@ def examine() -> list[Finding]:
     version = ".".join(map(str, sys.version_info[:3]))
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
     return [
-        Finding("depal", True, __version__),
-        Finding("Python", sys.version_info >= _OLDEST_PYTHON, f"{version}, 3.11 or later needed"),
-        Finding("machine", True, f"{platform.machine()}, {platform.system()}, {cores} cores"),
+        Finding("depal", works=True, detail=__version__),
+        Finding(
+            "Python",
+            works=sys.version_info >= _OLDEST_PYTHON,
+            detail=f"{version}, 3.11 or later needed",
+        ),
+        Finding(
+            "machine",
+            works=True,
+            detail=f"{platform.machine()}, {platform.system()}, {cores} cores",
+        ),
         *(_package(name) for name in _NEEDED),
         _tried("compiler of the hot loops", _compile),
         _tried("pictures", _draw),
@@ -62,22 +71,22 @@ def examine() -> list[Finding]:
 
 def _package(name: str) -> Finding:
     try:
-        return Finding(name, True, metadata.version(name))
+        return Finding(name, works=True, detail=metadata.version(name))
     except metadata.PackageNotFoundError:
-        return Finding(name, False, f"not installed; pip install {name}")
+        return Finding(name, works=False, detail=f"not installed; pip install {name}")
 
 
 def _optional(name: str, purpose: str) -> Finding:
     if importlib.util.find_spec(name) is None:
-        return Finding(name, None, f"not installed; only for {purpose}")
-    return Finding(name, True, f"{metadata.version(name)}, for {purpose}")
+        return Finding(name, works=None, detail=f"not installed; only for {purpose}")
+    return Finding(name, works=True, detail=f"{metadata.version(name)}, for {purpose}")
 
 
 def _tried(name: str, attempt: Callable[[], str]) -> Finding:
     try:
-        return Finding(name, True, attempt())
+        return Finding(name, works=True, detail=attempt())
     except Exception as error:  # noqa: BLE001 - whatever it is, it is what we report
-        return Finding(name, False, f"{type(error).__name__}: {error}")
+        return Finding(name, works=False, detail=f"{type(error).__name__}: {error}")
 
 
 def _compile() -> str:
@@ -88,10 +97,9 @@ def _compile() -> str:
 
 
 def _draw() -> str:
-    from matplotlib.backends.backend_agg import FigureCanvasAgg  # noqa: PLC0415 - slow to load
-    from matplotlib.figure import Figure  # noqa: PLC0415
+    from matplotlib.figure import Figure  # noqa: PLC0415 - slow to load
 
-    FigureCanvasAgg(Figure()).draw()
+    Figure().savefig(io.BytesIO())
     return "matplotlib draws without a screen"
 
 

@@ -41,7 +41,7 @@ def _check_targets(json_file: Path | None, plot: Path | None) -> None:
 
 
 @study.command()
-def table1(  # noqa: PLR0913, PLR0917 - the options of a command
+def table1(
     pallets: Pallets = 10_000,
     generators: Annotated[
         str, typer.Option(help="Names of generators, with commas between them.")
@@ -71,7 +71,7 @@ def table1(  # noqa: PLR0913, PLR0917 - the options of a command
 
 
 @study.command()
-def fig8(  # noqa: PLR0913, PLR0917 - the options of a command
+def fig8(
     pallets: Pallets = 10_000,
     seed: Seed = 0,
     workers: Workers = 1,
@@ -93,7 +93,7 @@ def fig8(  # noqa: PLR0913, PLR0917 - the options of a command
 
 
 @study.command()
-def fig9(  # noqa: PLR0913, PLR0917 - the options of a command
+def fig9(
     pallets: Pallets = 1_000,
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.9,
     seed: Seed = 0,

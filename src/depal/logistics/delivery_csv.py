@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from depal.domain import EURO_PALLET, Delivery
 from depal.errors import DeliveryError, Problem
 from depal.logistics.checking import checked_delivery
-from depal.logistics.findings import Finding, refusal, shown
+from depal.logistics.findings import Finding, shown
 from depal.logistics.json_text import whole_number
 from depal.logistics.quantities import MOST_CASES
 
@@ -58,7 +58,7 @@ def delivery_of_csv(text: str, name: str, source: str) -> Delivery:
     if not isinstance(outcome, Delivery):
         problems += [_placed(finding, numbers) for finding in outcome if lines or finding.loc[1:]]
     problems.sort(key=lambda placed: placed[0])
-    raise refusal(DeliveryError, source, [problem for _, problem in problems])
+    raise DeliveryError(source, [problem for _, problem in problems])
 
 
 def _rows(

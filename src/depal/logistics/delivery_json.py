@@ -3,7 +3,7 @@
 from depal.domain import Delivery
 from depal.errors import DeliveryError, Problem
 from depal.logistics.checking import checked_delivery
-from depal.logistics.findings import Finding, place, refusal, shown
+from depal.logistics.findings import Finding, place, shown
 from depal.logistics.json_text import json_value
 
 _MOST_DELIVERIES = 10_000
@@ -47,7 +47,7 @@ def deliveries_of_json(text: str, source: str) -> tuple[Delivery, ...]:
         else:
             problems += [_in_list(index, name, finding) for finding in outcome]
     if problems:
-        raise refusal(DeliveryError, source, problems)
+        raise DeliveryError(source, problems)
     return tuple(deliveries)
 
 
@@ -58,7 +58,7 @@ def _single(value: object, source: str) -> Delivery:
     outcome = checked_delivery(value)
     if isinstance(outcome, Delivery):
         return outcome
-    raise refusal(DeliveryError, source, [finding.at(place(finding.loc)) for finding in outcome])
+    raise DeliveryError(source, [finding.at(place(finding.loc)) for finding in outcome])
 
 
 def _name(raw: object) -> str | None:

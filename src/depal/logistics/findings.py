@@ -2,17 +2,11 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TypeVar
 
-from depal.errors import InputError, Problem, did_you_mean
-
-E = TypeVar("E", bound=InputError)
+from depal.errors import Problem, did_you_mean
 
 Loc = tuple[str | int, ...]
 """A path into a file: keys of objects and indices of lists, from the outside in."""
-
-PRINTED = 50
-"""How many problems one message spells out; the error itself holds all of them."""
 
 _SHOWN = 60
 """How many characters of a foreign text a message repeats."""
@@ -74,24 +68,3 @@ def choices(name: str, known: Sequence[str], limit: int = 12) -> str:
     """What is close to a name that does not exist, and what there is."""
     hint, listing = did_you_mean(name, known, limit), did_you_mean("", known, limit)
     return hint if hint == listing else f"{hint} ({listing})"
-
-
-def refusal(kind: type[E], source: str, problems: Sequence[Problem]) -> E:
-    """One error with all problems, whose message spells out the first of them.
-
-    Args:
-        kind: the class of the error.
-        source: what was read.
-        problems: everything that is wrong with it, at least one.
-
-    Returns:
-        The error, to be raised; `problems` is complete, the text stops after `PRINTED` of them.
-    """
-    error = kind(source, problems)
-    more = len(problems) - PRINTED
-    if more > 0:
-        total = f"{len(problems)} problems"
-        head = f"{source}: {total}" if source else total
-        first = [f"  {problem}" for problem in problems[:PRINTED]]
-        error.args = ("\n".join([head, *first, f"  and {more} more"]),)
-    return error

@@ -3,8 +3,9 @@
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Sequence
 
+from depal.errors import PRINTED
 from depal.geometry import Vector3
-from depal.logistics.findings import PRINTED, Finding, choices
+from depal.logistics.findings import Finding, choices
 from depal.logistics.gtin import same_article
 from depal.logistics.parts import ROUNDING, TOLERANCE, NotePart, StackPart
 

@@ -9,7 +9,7 @@ from pydantic import ValidationError
 from depal.domain import Delivery, Request
 from depal.errors import Problem, RequestError
 from depal.logistics.expectations import Expectations
-from depal.logistics.findings import Finding, choices, place, refusal
+from depal.logistics.findings import Finding, choices, place
 from depal.logistics.request_model import RequestEntry
 from depal.logistics.request_yaml import YamlItem, items_of_yaml
 from depal.logistics.sentences import findings_of
@@ -47,7 +47,7 @@ def read_requests(path: Path, delivery: Delivery | None = None) -> tuple[Request
         else:
             problems += [finding.at(_where(index, item, finding)) for finding in outcome]
     if problems:
-        raise refusal(RequestError, source, problems)
+        raise RequestError(source, problems)
     return tuple(requests)
 
 
@@ -70,7 +70,7 @@ def check_requests(requests: Iterable[Request], delivery: Delivery) -> None:
         if request.gtin is not None and request.gtin not in on_note
     ]
     if problems:
-        raise refusal(RequestError, "", problems)
+        raise RequestError("", problems)
 
 
 def _checked(item: YamlItem, on_note: Sequence[str] | None) -> Request | list[Finding]:

@@ -70,7 +70,7 @@ class Case1:
     @property
     def stuck(self) -> npt.NDArray[np.bool_]:
         """(trials,) where some run never came to the requested box."""
-        return (self.h == STUCK) | (self.hl == STUCK).any(axis=1)
+        return np.asarray(np.logical_or(self.h == STUCK, (self.hl == STUCK).any(axis=1)))
 
 
 def draw_trial(
@@ -82,7 +82,7 @@ def draw_trial(
     return Trial(pallet, int(rng.integers(len(pallet))), 1.0 - rng.random())
 
 
-def run_case1(  # noqa: PLR0913 - the options of the study
+def run_case1(
     generator: str,
     weights: Sequence[float],
     pallets: int,
@@ -169,7 +169,7 @@ def count_trial(trial: Trial, weights: Sequence[float]) -> list[int]:
     ]
 
 
-def count_before(  # noqa: PLR0913 - the quantities of one run
+def count_before(
     links: Links, h: Array, rank: Counts, requested: int, priority: float, w: float
 ) -> int:
     """How many boxes are stored before the requested one, or STUCK.

@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from depal.domain import checked_share
 from depal.selection import EXACT, geometric_rank, link_prisms, position_priority
 from depal.selection.links import NONE
 from depal.selection.unload import unload
+from depal.selection.walks import mark_reachable
 from depal.studies import paper
 from depal.studies.pallets import RandomPallet, generator_named
 from depal.studies.pillars import pillar_index
@@ -23,6 +25,8 @@ REQUESTS = (1, 3)
 
 _PIECE = 50
 _MOST_DRAWS = 1000
+_BOXES_PER_STEP = 1.5
+_EXAMPLES = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,6 +44,20 @@ class Piles:
     wanted: Slots
     left_h: Slots
     left_hl: Slots
+
+    @property
+    def everything(self) -> Slots:
+        """All slots."""
+        return np.arange(len(self.pallet), dtype=np.int32)
+
+    @property
+    def blockers(self) -> list[int]:
+        """T of the first requested box, in slots."""
+        links, _ = link_prisms(self.pallet.prisms, EXACT)
+        slots = len(self.pallet)
+        marked, stack = np.zeros(slots, np.bool_), np.empty(slots, np.int32)
+        found = mark_reachable(links, int(self.wanted[0]), marked, stack)
+        return [int(slot) for slot in stack[:found]]
 
     def pillars(self, left: Slots) -> float:
         """The pillar index of what is left."""
@@ -75,7 +93,7 @@ class Fig9:
     example: Piles
 
 
-def fig9(  # noqa: PLR0913 - the options of the study
+def fig9(
     pallets: int = 1000,
     seed: int = 0,
     w: float = 0.9,
@@ -86,7 +104,8 @@ def fig9(  # noqa: PLR0913 - the options of the study
     """Takes `steps` boxes from random pallets in both modalities and measures the pillars.
 
     Args:
-        pallets: how many random pallets, each with more boxes than `steps`.
+        pallets: how many random pallets, each with half as many boxes again as `steps`, so
+            that a pile is left to look at.
         seed: of the sweep.
         w: the weight of Eq. (3) in the second modality.
         steps: how many boxes are stored.
@@ -95,7 +114,11 @@ def fig9(  # noqa: PLR0913 - the options of the study
 
     Returns:
         The measurements, and the pallet of the picture.
+
+    Raises:
+        SettingError: w is not in [0, 1].
     """
+    checked_share("w", w)
     pieces = [
         _Piece(seed, count, w, steps, first, min(first + _PIECE, pallets))
         for count in REQUESTS
@@ -134,7 +157,7 @@ def draw_piles(seed: int, index: int, count: int, w: float, steps: int) -> Piles
     generate = generator_named("guillotine")
     pallet = generate(rng)
     for _ in range(_MOST_DRAWS):
-        if len(pallet) > steps + count:
+        if len(pallet) >= _BOXES_PER_STEP * steps:
             break
         pallet = generate(rng)
     wanted = rng.permutation(len(pallet))[:count].astype(np.int32)
@@ -154,13 +177,11 @@ def _left(
     links, _ = link_prisms(pallet.prisms, EXACT)
     h = position_priority(pallet.prisms, pallet.x_max)
     order = np.full(steps, NONE, np.int32)
-    stored = unload(
-        links, h, geometric_rank(pallet.prisms), wanted, priorities, w, NONE, order
-    )
+    stored = unload(links, h, geometric_rank(pallet.prisms), wanted, priorities, w, NONE, order)
     return np.setdiff1d(np.arange(len(pallet), dtype=np.int32), order[:stored])
 
 
-def _example(seed: int, w: float, steps: int, among: Sequence[int] = range(200)) -> Piles:
+def _example(seed: int, w: float, steps: int, among: Sequence[int] = range(_EXAMPLES)) -> Piles:
     """A pallet on which the difference is plain to see: the largest of the first ones.
 
     Fig. 9 is one picked pallet too; the rows say what is true on average.

@@ -90,9 +90,9 @@ def _dask_executor(address: str) -> Iterator[Executor]:
         message = "Dask is not installed; pip install 'depal[dask]'"
         raise MissingPartError(message) from error
     try:
-        client = Client(address, timeout="10s", set_as_default=False)
+        client = Client(address, timeout="10s", set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:
         message = f"--dask {address}: no Dask scheduler answers there; expected tcp://HOST:PORT"
         raise DepalError(message) from error
     with client:
-        yield cast("Executor", client.get_executor(pure=False))
+        yield cast("Executor", client.get_executor(pure=False))  # type: ignore[no-untyped-call]

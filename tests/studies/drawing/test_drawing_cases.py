@@ -209,7 +209,7 @@ def test_the_requested_box_is_outlined_where_it_is_hidden_or_gone() -> None:
     [
         (((1, 0, 2),), "The request moves $b_{1}$ from place 3 to place 2"),
         (((1, 2, 0),), "The request leaves $b_{1}$ in place 3"),
-        (((1, 0, 2), (0, 1, 2)), "In all 2 layouts the request moves $b_{1}$ forward by 1 to 2"),
+        (((1, 0, 2), (0, 1, 2)), "In both layouts the request moves $b_{1}$ forward by 1 to 2"),
     ],
 )
 def test_the_title_of_the_scores_says_where_the_requested_box_goes(

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from matplotlib.figure import Figure
 from rich.console import RenderableType
 from rich.table import Table
 
@@ -46,7 +47,7 @@ def table1_report(results: Sequence[Table1], seconds: float) -> Report:
             "stuck": sum(result.stuck for result in results),
         },
         shown=shown,
-        draw=lambda: table_figure([_drawn(row) for row in results[0].rows], _caption(results[0])),
+        draw=lambda: _figure(results[0]),
         holds=all(check.holds for result in results for check in result.checks),
     )
 
@@ -89,12 +90,25 @@ def _table(result: Table1) -> Table:
             else ("", "", "")
         )
         table.add_row(
-            f"w = {row.w}", "avg", plus_minus(row.h), h, plus_minus(row.hl), hl,
-            plus_minus(row.reduction), saved,
+            f"w = {row.w}",
+            "avg",
+            plus_minus(row.h),
+            h,
+            plus_minus(row.hl),
+            hl,
+            plus_minus(row.reduction),
+            saved,
         )
         stds = (f"{printed.h_std:.2f}", f"{printed.hl_std:.2f}") if printed else ("", "")
         table.add_row(
-            "", "std", f"{row.h.std:.2f}", stds[0], f"{row.hl.std:.2f}", stds[1], "", "",
+            "",
+            "std",
+            f"{row.h.std:.2f}",
+            stds[0],
+            f"{row.hl.std:.2f}",
+            stds[1],
+            "",
+            "",
             end_section=True,
         )
     limit = plus_minus(result.rows[0].limit)
@@ -114,8 +128,20 @@ def _checks(checks: Sequence[Check]) -> RenderableType:
 
 
 def _drawn(row: Row) -> TableRow:
-    raise NotImplementedError
+    return TableRow(row.w, row.h.mean, row.h.std, row.hl.mean, row.hl.std)
 
 
-def _caption(result: Table1) -> str:
-    return f"{result.pallets:,} {result.generator} pallets, seed {result.seed}"
+def _printed() -> list[TableRow]:
+    return [
+        TableRow(w, row.h_mean, row.h_std, row.hl_mean, row.hl_std)
+        for w, row in paper.TABLE_1.items()
+    ]
+
+
+def _figure(result: Table1) -> Figure:
+    return table_figure(
+        [_drawn(row) for row in result.rows],
+        _printed() if result.generator == "guillotine" else [],
+        result.pallets,
+        note=f"{result.generator} pallets, seed {result.seed}",
+    )

@@ -32,9 +32,7 @@ def networkx_selection(
     centres = np.array([box.shape.centre for box in boxes])
     halves = np.array([box.shape.size for box in boxes]) / 2
     low, high = centres - halves, centres + halves
-    shared = (
-        np.minimum(high[:, None], high[None]) - np.maximum(low[:, None], low[None])
-    ) > _SLACK
+    shared = (np.minimum(high[:, None], high[None]) - np.maximum(low[:, None], low[None])) > _SLACK
     on_top = shared[..., 0] & shared[..., 1] & (low[None, :, 2] >= high[:, None, 2] - _SLACK)
     occludes = shared[..., 1] & shared[..., 2] & (high[None, :, 0] <= low[:, None, 0] + _SLACK)
     graph = nx.DiGraph()
@@ -49,8 +47,7 @@ def networkx_selection(
         + weights.height * centres[:, 2]
     )
     scores = {
-        i: rule.w * (request.priority if i in pulled else 0.0) + (1 - rule.w) * h[i]
-        for i in graph
+        i: rule.w * (request.priority if i in pulled else 0.0) + (1 - rule.w) * h[i] for i in graph
     }
     queue = sorted(graph, key=scores.__getitem__, reverse=True)
     next(i for i in queue if graph.out_degree(i) == 0)

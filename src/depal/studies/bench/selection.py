@@ -103,9 +103,7 @@ def _update(seed: int, n: int = 1000) -> Figure:
 
 def _memory(seed: int, small: int = 500, large: int = 5000) -> Figure:
     """Bytes an edge costs when the graph grows tenfold: constant where memory is linear."""
-    of_small, of_large = (
-        BlockingGraph(perceived_pallet(n, seed), EXACT) for n in (small, large)
-    )
+    of_small, of_large = (BlockingGraph(perceived_pallet(n, seed), EXACT) for n in (small, large))
     added_bytes = of_large.nbytes - of_small.nbytes
     return Figure(
         name=f"memory per edge of the graph, from n = {small} to {large}",

@@ -135,7 +135,7 @@ def _scene(paper: Sheet, boxes: Sequence[SeenBox], arrows: Collection[Edge]) -> 
     )
     inch = 1.0 / scale
     faces = [face_of(box, row * step * inch) for box, row in zip(boxes, rows, strict=True)]
-    whole, room, rim = around(faces), RULER * inch, RIM * inch
+    whole, room, rim = around([*faces, load]), RULER * inch, RIM * inch
     window = (whole.left - room, whole.right + rim, whole.bottom - room, whole.top + rim)
     axes, _ = paper.picture(paper.whole, window)
     rulers(axes, load, scale)

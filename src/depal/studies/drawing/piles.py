@@ -90,7 +90,7 @@ def three_piles(
     page = sheet(
         PICTURE + NUMBERS,
         _finding(stack.requested, states, steps),
-        "Green: the requested box. Pale green: what lies on it or occludes it. Dashed: where it "
+        "Green: the requested box. Pale green: what has to leave before it. Dashed: where it "
         "stands hidden, or stood.",
         joined("After Fig. 9, section III-B", note),
     )

@@ -146,7 +146,8 @@ def _finding(layouts: Sequence[ScoredLayout]) -> str:
     labels = {typeset(layout.boxes[layout.requested].label) for layout in layouts}
     asked = labels.pop() if len(labels) == 1 else "the requested box"
     moves = {layout.places for layout in layouts}
-    lead = f"In all {len(layouts)} layouts the" if len(layouts) > 1 else "The"
+    count = "both" if len(layouts) == 2 else f"all {len(layouts)}"  # noqa: PLR2004 - both is two
+    lead = f"In {count} layouts the" if len(layouts) > 1 else "The"
     if len(moves) == 1:
         ((old, new),) = moves
         if old == new:

@@ -1,0 +1,201 @@
+"""Measures every figure, and prints the table that the README quotes.
+
+    python scripts/figures.py [--fresh]
+
+Each measurement is kept in .figures/ under the state of the sources that it was made with, so
+an interrupted run goes on where it stopped; --fresh measures everything anew. The table is
+printed and written between the two marks in README.md.
+"""
+
+import hashlib
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from rich.console import Console
+from rich.progress import track
+
+ROOT = Path(__file__).resolve().parent.parent
+BIN = Path(sys.executable).parent
+KEPT = ROOT / ".figures"
+BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of the table."""
+
+    what: str
+    figure: str
+    measured: str
+    met: bool
+
+
+def depal(*words: str, env: dict[str, str] | None = None) -> tuple[dict[str, object], float]:
+    """The JSON of a command, and the time that the whole process took [s]."""
+    with tempfile.TemporaryDirectory() as folder:
+        report = Path(folder) / "report.json"
+        start = time.perf_counter()
+        command = [str(BIN / "depal"), *words, "--json", str(report)]
+        done = subprocess.run(  # noqa: S603 - our own command
+            command, capture_output=True, text=True, check=False, env={**os.environ, **(env or {})}
+        )
+        seconds = time.perf_counter() - start
+        if not report.exists():
+            raise SystemExit(f"{' '.join(words)} failed:\n{done.stdout}\n{done.stderr}")
+        return json.loads(report.read_text(encoding="utf-8")), seconds
+
+
+def table1() -> Iterator[Line]:
+    """The table at full size, twice: at the default seed from nothing compiled, at another."""
+    with tempfile.TemporaryDirectory() as cache:
+        report, seconds = depal("study", "table1", env={"NUMBA_CACHE_DIR": cache})
+    yield _checked("Table I, 10,000 pallets, default seed: conditions that hold", report)
+    yield Line(
+        "the same from the shell, compilation included",
+        "<= 20 s",
+        f"{seconds:.1f} s",
+        seconds <= 20,  # noqa: PLR2004 - the figure
+    )
+    report, _ = depal("study", "table1", "--seed", "1")
+    yield _checked("Table I, 10,000 pallets, seed 1: conditions that hold", report)
+
+
+def _checked(what: str, report: dict[str, object]) -> Line:
+    checks = report["checks"]
+    assert isinstance(checks, list)  # noqa: S101 - our own file
+    holding = sum(check["holds"] for check in checks)
+    return Line(what, "all", f"{holding} of {len(checks)}", holding == len(checks))
+
+
+def selection() -> Iterator[Line]:
+    """`depal bench selection`."""
+    report, _ = depal("bench", "selection")
+    figures = report["figures"]
+    assert isinstance(figures, list)  # noqa: S101 - our own file
+    for figure in figures:
+        value, target, unit = figure["value"], figure["target"], figure["unit"]
+        peer = "" if figure["peer"] is None else f" (networkx: {figure['peer']:.3g})"
+        yield Line(
+            figure["name"], f"<= {target:g} {unit}", f"{value:.3g} {unit}{peer}", value <= target
+        )
+
+
+def case2() -> Iterator[Line]:
+    """`depal study case2`, with many draws."""
+    report, _ = depal("study", "case2", "--draws", "2000")
+    layouts = report["layouts"]
+    assert isinstance(layouts, list)  # noqa: S101 - our own file
+    for entry in layouts:
+        ranks = f"{entry['without']}th / {entry['with']}th"
+        yield Line(
+            f"case study 2, {entry['layout']}: b1 without / with the request; under jitter",
+            "10th / 8th; >= 95 %",
+            f"{ranks}; {100 * entry['robust']:.1f} %",
+            (entry["without"], entry["with"]) == (10, 8) and entry["robust"] >= 0.95,  # noqa: PLR2004
+        )
+
+
+def unloading() -> Iterator[Line]:
+    """`depal study unload` over the deliveries that ship."""
+    report, _ = depal("study", "unload")
+    deliveries = report["deliveries"]
+    assert isinstance(deliveries, list)  # noqa: S101 - our own file
+    boxes = sum(entry["boxes"] for entry in deliveries)
+    taken = sum(entry["taken"] for entry in deliveries)
+    burdened = sum(len(entry["burdened"]) for entry in deliveries)
+    yield Line(
+        f"{len(deliveries)} real deliveries on geometry alone: boxes taken; with a box on them",
+        f"{boxes} of {boxes}; 0",
+        f"{taken} of {boxes}; {burdened}",
+        taken == boxes and not burdened,
+    )
+
+
+def tests() -> Iterator[Line]:
+    """The unit tests' time, and the branches of the core."""
+    start = time.perf_counter()
+    subprocess.run(  # noqa: S603 - our own command
+        [BIN / "pytest", "-q", "-n", "2", "-m", "not slow"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+    )
+    seconds = time.perf_counter() - start
+    yield Line("unit tests, 2 processes", "< 60 s", f"{seconds:.0f} s", seconds < 60)  # noqa: PLR2004
+    done = subprocess.run(  # noqa: S603 - our own command
+        [
+            BIN / "pytest", "-q", "tests/domain", "tests/geometry", "tests/selection",
+            "--cov=depal.domain", "--cov=depal.geometry", "--cov=depal.selection", "--cov-branch",
+        ],
+        cwd=ROOT, check=True, capture_output=True, text=True,
+        env={**os.environ, "NUMBA_DISABLE_JIT": "1"},
+    )  # fmt: skip
+    share = re.search(r"^TOTAL.*?(\d+)%", done.stdout, re.MULTILINE)
+    percent = int(share[1]) if share else 0
+    yield Line(
+        "branch coverage of domain, geometry, selection (compiler off)",
+        "100 %",
+        f"{percent} %",
+        percent == 100,  # noqa: PLR2004
+    )
+
+
+MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
+    table1,
+    selection,
+    case2,
+    unloading,
+    tests,
+)
+
+
+def state() -> str:
+    """A hash of the sources, the tests and this script."""
+    digest = hashlib.sha256(Path(__file__).read_bytes())
+    for folder in ("src", "tests"):
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            digest.update(path.read_bytes())
+    return digest.hexdigest()[:16]
+
+
+def measured(measure: Callable[[], Iterator[Line]], *, fresh: bool) -> list[Line]:
+    """The lines of a measurement, kept or made now."""
+    kept = KEPT / f"{measure.__name__}-{state()}.json"
+    if fresh or not kept.exists():
+        KEPT.mkdir(exist_ok=True)
+        kept.write_text(json.dumps([asdict(line) for line in measure()]), encoding="utf-8")
+    return [Line(**entry) for entry in json.loads(kept.read_text(encoding="utf-8"))]
+
+
+def main() -> int:
+    """Measures, prints, writes the README; exit status 1 where a figure is missed."""
+    fresh = "--fresh" in sys.argv
+    console = Console(stderr=True)
+    lines: list[Line] = []
+    for measure in track(MEASUREMENTS, "Figures", console=console, transient=True):
+        lines += measured(measure, fresh=fresh)
+    rows = ["| figure | target | measured | |", "|---|---|---|---|"]
+    rows += [
+        f"| {line.what} | {line.figure} | {line.measured} | {'met' if line.met else 'MISSED'} |"
+        for line in lines
+    ]
+    table = "\n".join(rows)
+    print(table)
+    readme = ROOT / "README.md"
+    text = readme.read_text(encoding="utf-8")
+    if BEGIN in text and END in text:
+        head, tail = text.split(BEGIN)[0], text.split(END)[1]
+        readme.write_text(f"{head}{BEGIN}\n{table}\n{END}{tail}", encoding="utf-8")
+    return 0 if all(line.met for line in lines) else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())

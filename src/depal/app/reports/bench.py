@@ -1,0 +1,48 @@
+"""Measured figures beside their targets."""
+
+from collections.abc import Sequence
+
+from depal.app.files import Json
+from depal.app.reports.report import Report, plain_table
+from depal.studies.bench import Figure
+
+
+def bench_report(part: str, figures: Sequence[Figure]) -> Report:
+    """The report of `depal bench`.
+
+    Args:
+        part: what was measured.
+        figures: the figures.
+
+    Returns:
+        The report; it holds when every target is met.
+    """
+    table = plain_table(f"{part}: medians", "figure", "value", "target", "unit", "n", "peer", "")
+    fields: list[Json] = []
+    for figure in figures:
+        sign = "<=" if figure.better == "lower" else ">="
+        table.add_row(
+            figure.name,
+            f"{figure.value:.3g}",
+            f"{sign} {figure.target:g}",
+            figure.unit,
+            str(figure.n),
+            "" if figure.peer is None else f"{figure.peer:.3g}",
+            "[green]met[/]" if figure.met else "[red]missed[/]",
+        )
+        fields.append(
+            {
+                "name": figure.name,
+                "value": figure.value,
+                "unit": figure.unit,
+                "target": figure.target,
+                "better": figure.better,
+                "n": figure.n,
+                "peer": figure.peer,
+            }
+        )
+    return Report(
+        fields={"part": part, "figures": fields},
+        shown=[table],
+        holds=all(figure.met for figure in figures),
+    )

@@ -1,0 +1,215 @@
+"""Commands as a stranger types them: good input, bad input, and what is written."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import jsonschema
+import pytest
+
+from depal import __version__
+from depal.cli import main
+from depal.logistics import shipped_deliveries
+
+Run = Callable[..., tuple[int, str, str]]
+
+
+def run(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *words: str
+) -> tuple[int, str, str]:
+    """A command's exit status, output and error output."""
+    monkeypatch.setattr(sys, "argv", ["depal", *words])
+    try:
+        main()
+        status = 0
+    except SystemExit as stop:
+        status = int(stop.code or 0)
+    printed = capsys.readouterr()
+    return status, printed.out, printed.err
+
+
+@pytest.fixture(name="depal")
+def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    return lambda *words: run(capsys, monkeypatch, *map(str, words))
+
+
+def test_table1_writes_the_fields_of_the_contract(depal: Run, tmp_path: Path) -> None:
+    """And the figure."""
+    report, plot = tmp_path / "t.json", tmp_path / "t.png"
+    status, out, _ = depal("study", "table1", "--pallets", 300, "--json", report, "--plot", plot)
+    assert status == 0
+    assert "h(x)+l(x)" in out
+    fields = json.loads(report.read_text())
+    assert {"pallets", "seed", "seconds", "rows", "limit", "version", "command"} <= set(fields)
+    assert fields["version"] == __version__
+    assert fields["command"].startswith("depal study table1 --pallets 300")
+    assert fields["pallets"] == 300
+    for row in fields["rows"]:
+        assert set(row["h"]) == set(row["hl"]) == {"mean", "std"}
+        low, high = row["reduction"]["ci95"]
+        assert low <= row["reduction"]["mean"] <= high
+        assert row["limit"] == fields["limit"]
+    assert [row["w"] for row in fields["rows"]] == [0.1, 0.3, 0.5, 0.7, 0.9]
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_every_generator_has_its_table(depal: Run) -> None:
+    """Several at once, by name."""
+    status, out, _ = depal(
+        "study", "table1", "--pallets", 60, "--generators", "layered,cubic,dropped"
+    )
+    assert status == 0
+    assert "60 layered pallets" in " ".join(out.split())
+
+
+@pytest.mark.parametrize(
+    ("words", "fields"),
+    [
+        (("fig8", "--pallets", "300"), {"rows", "pallets", "seed"}),
+        (("fig9", "--pallets", "10"), {"rows", "steps", "w"}),
+        (("case2", "--draws", "5"), {"layouts"}),
+        (("fig4",), {"highest", "lowest"}),
+        (("fig5",), {"reachable", "edges"}),
+    ],
+)
+def test_every_study_prints_writes_and_draws(
+    depal: Run,
+    tmp_path: Path,
+    words: tuple[str, ...],
+    fields: set[str],
+) -> None:
+    """In one command."""
+    report, plot = tmp_path / "r.json", tmp_path / "p.svg"
+    status, out, err = depal("study", *words, "--json", report, "--plot", plot)
+    assert (status, err) == (0, "")
+    assert out
+    assert fields <= set(json.loads(report.read_text()))
+    assert "<svg" in plot.read_text()
+
+
+def test_case2_has_the_ranks_of_the_contract(depal: Run, tmp_path: Path) -> None:
+    """10th without and 8th with."""
+    depal("study", "case2", "--draws", 20, "--json", tmp_path / "c.json")
+    layouts = json.loads((tmp_path / "c.json").read_text())["layouts"]
+    assert {entry["layout"] for entry in layouts} >= {"5-5", "3-3-2-2"}
+    assert all((entry["without"], entry["with"]) == (10, 8) for entry in layouts)
+    assert all(0 <= entry["robust"] <= 1 for entry in layouts)
+
+
+def test_shipped_deliveries_are_unloaded(depal: Run, tmp_path: Path) -> None:
+    """All of them, and one by its name with a request."""
+    status, _, _ = depal("study", "unload")
+    assert status == 0
+    gtin = shipped_deliveries()[0].lines[0].product.gtin
+    requests = tmp_path / "requests.yaml"
+    requests.write_text(f'- {{at: 0 s, gtin: "{gtin}", priority: 0.8}}\n')
+    name = shipped_deliveries()[0].id
+    status, _, _ = depal(
+        "study",
+        "unload",
+        "--deliveries",
+        name,
+        "--requests",
+        requests,
+        "--json",
+        tmp_path / "u.json",
+    )
+    assert status == 0
+    (entry,) = json.loads((tmp_path / "u.json").read_text())["deliveries"]
+    assert entry["taken"] == entry["boxes"]
+    assert entry["served"] != [None]
+
+
+def test_a_delivery_is_checked(depal: Run, tmp_path: Path) -> None:
+    """A valid one is summed up."""
+    status, out, _ = depal("delivery", "check", "dev-000", "--json", tmp_path / "d.json")
+    assert status == 0
+    assert "1 valid delivery" in out
+    (entry,) = json.loads((tmp_path / "d.json").read_text())["deliveries"]
+    assert entry["boxes"] == 30
+
+
+def test_everything_wrong_with_a_delivery_is_said_at_once(depal: Run, tmp_path: Path) -> None:
+    """On the error output, with exit status 2, and nothing written."""
+    file = tmp_path / "bad.json"
+    line = {"gtin": "12000823098181", "name": "x", "size": [0.3, -0.2, 0.2], "mass": 1, "count": 1}
+    file.write_text(json.dumps({"id": "d", "pallet": {"size": [1.2, 0.8, 0.144]}, "lines": [line]}))
+    status, out, err = depal("delivery", "check", file, "--json", tmp_path / "d.json")
+    assert status == 2
+    assert out == ""
+    assert "bad.json: 2 problems" in err
+    assert "lines[0].gtin" in err
+    assert "lines[0].size[1]" in err
+    assert not (tmp_path / "d.json").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("study", "fig9", "--w", "1.5", "--pallets", "5"), "w: 1.5 is out of range"),
+        (("study", "case2", "--w", "nan", "--draws", "1"), "w: nan is not a number"),
+        (("study", "table1", "--generators", "cubik"), "did you mean 'cubic'?"),
+        (("study", "table1", "--plot", "nowhere/t.png"), "--plot: there is no folder 'nowhere'"),
+        (("study", "table1", "--json", "."), "--json: '.' is a folder"),
+        (("study", "fig5", "--plot", "x.jpeg"), ".png"),
+        (("study", "unload", "--deliveries", "dev-00"), "did you mean"),
+        (("delivery", "check", "nowhere.json"), "nowhere.json"),
+        (("schema", "delivry"), "did you mean 'delivery'?"),
+        (("schema",), "there is: delivery, requests"),
+    ],
+)
+def test_bad_input_is_one_error_that_teaches(
+    depal: Run,
+    words: tuple[str, ...],
+    message: str,
+) -> None:
+    """Exit status 2, no traceback."""
+    status, _, err = depal(*words)
+    assert status == 2
+    assert message in err
+    assert "Traceback" not in err
+
+
+def test_a_request_for_a_product_that_is_not_on_the_note_is_refused(
+    depal: Run, tmp_path: Path
+) -> None:
+    """By the check and by the study."""
+    requests = tmp_path / "requests.yaml"
+    requests.write_text('- {at: 0 s, gtin: "12000823126456", priority: 0.8}\n')
+    for words in (("delivery", "check", "dev-000"), ("study", "unload", "--deliveries", "dev-000")):
+        status, _, err = depal(*words, "--requests", requests)
+        assert status == 2
+        assert "12000823126456" in err
+        assert "note" in err
+
+
+@pytest.mark.parametrize("name", ["delivery", "requests"])
+def test_a_schema_is_a_json_schema(depal: Run, name: str) -> None:
+    """That other programs can use."""
+    status, out, _ = depal("schema", name)
+    assert status == 0
+    jsonschema.Draft202012Validator.check_schema(json.loads(out))
+
+
+def test_the_doctor_finds_this_machine_well(depal: Run, tmp_path: Path) -> None:
+    """Otherwise these tests would not run."""
+    status, out, _ = depal("doctor", "--json", tmp_path / "d.json")
+    assert status == 0
+    assert "numba" in out
+    findings = json.loads((tmp_path / "d.json").read_text())["findings"]
+    assert all(finding["works"] in {True, None} for finding in findings)
+
+
+def test_the_version_is_said(depal: Run) -> None:
+    """And help for a bare command."""
+    assert depal("--version")[1] == f"depal {__version__}\n"
+    assert "study" in depal("--help")[1]
+
+
+def test_the_installed_command_starts() -> None:
+    """Through its entry point, in a process of its own."""
+    command = Path(sys.executable).parent / "depal"
+    done = subprocess.run([command, "--version"], capture_output=True, text=True, check=True)  # noqa: S603
+    assert done.stdout == f"depal {__version__}\n"

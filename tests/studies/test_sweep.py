@@ -1,0 +1,84 @@
+"""A sweep gives the same on any executor."""
+
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+
+from depal.errors import DepalError, InputError, MissingPartError, SettingError
+from depal.studies.sweep import executor_for, sweep
+from depal.studies.table1 import table1
+
+
+def square(number: int) -> int:
+    """A piece of work."""
+    return number * number
+
+
+def test_results_come_in_the_order_of_the_pieces_and_progress_to_its_end() -> None:
+    """Whoever is first."""
+    told: list[tuple[int, int]] = []
+    with ThreadPoolExecutor(4) as executor:
+        results = sweep(square, range(50), executor, lambda *now: told.append(now))
+    assert results == [number * number for number in range(50)]
+    assert told[0] == (0, 50)
+    assert told[-1] == (50, 50)
+
+
+def test_the_table_does_not_depend_on_the_number_of_workers() -> None:
+    """In this process and in two others: the same to the last bit."""
+    alone = table1(600, seed=3)
+    with executor_for(2) as executor:
+        together = table1(600, seed=3, executor=executor)
+    assert together == alone
+
+
+def test_a_dask_cluster_gives_the_same_table() -> None:
+    """Through the address of its scheduler."""
+    distributed = pytest.importorskip("distributed")
+    cluster = distributed.LocalCluster(
+        n_workers=1, threads_per_worker=2, processes=False, dashboard_address=None, protocol="tcp"
+    )
+    with cluster, executor_for(1, cluster.scheduler_address) as executor:
+        together = table1(300, seed=3, executor=executor)
+    assert together == table1(300, seed=3)
+
+
+def test_a_trial_does_not_depend_on_how_many_there_are() -> None:
+    """The first of many are the many's first."""
+    from depal.studies.case1 import run_case1  # noqa: PLC0415 - only here
+
+    few, many = (run_case1("guillotine", (0.5,), n, seed=1) for n in (40, 300))
+    assert few.h.tolist() == many.h[:40].tolist()
+    assert few.hl.tolist() == many.hl[:40].tolist()
+
+
+def test_no_workers_are_refused() -> None:
+    """One clear error."""
+    with pytest.raises(SettingError) as caught, executor_for(0):
+        pass
+    assert str(caught.value) == "--workers: 0 workers cannot work; expected 1 or more"
+
+
+def test_an_address_that_is_none_is_refused() -> None:
+    """Before any work begins."""
+    pytest.importorskip("distributed")
+    with pytest.raises(DepalError, match="no Dask scheduler answers there"), executor_for(1, "x:y"):
+        pass
+
+
+def test_dask_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the command that installs it."""
+    monkeypatch.setitem(__import__("sys").modules, "distributed", None)
+    with pytest.raises(MissingPartError, match="pip install"), executor_for(1, "tcp://x:1"):
+        pass
+
+
+def test_an_input_error_survives_the_way_from_a_worker() -> None:
+    """With its message and its problems."""
+    import pickle  # noqa: PLC0415 - what a process pool does
+
+    error = SettingError("w", "1.5 is out of range")
+    back = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert isinstance(back, InputError)
+    assert str(back) == str(error)
+    assert back.problems == error.problems
