@@ -1,6 +1,7 @@
 """The domain's values refuse what could never be, and speak the cell's frames."""
 
 import math
+import pickle  # what a process pool does
 
 import pytest
 from hypothesis import given
@@ -162,3 +163,12 @@ def test_an_error_lists_all_its_problems() -> None:
     assert str(InputError("", error.problems * 2)).startswith("2 problems\n  w: 1.5")
     many = str(InputError("file", error.problems * 60)).splitlines()
     assert (many[0], many[-1], len(many)) == ("file: 60 problems", "  and 10 more", 52)
+
+
+def test_an_input_error_survives_the_way_from_a_worker() -> None:
+    """With its message and its problems."""
+    error = SettingError("w", "1.5 is out of range")
+    back = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert isinstance(back, InputError)
+    assert str(back) == str(error)
+    assert back.problems == error.problems

@@ -4,7 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from depal.errors import DepalError, InputError, MissingPartError, SettingError
+from depal.errors import DepalError, MissingPartError, SettingError
 from depal.studies.sweep import executor_for, sweep
 from depal.studies.table1 import table1
 
@@ -71,14 +71,3 @@ def test_dask_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) ->
     monkeypatch.setitem(__import__("sys").modules, "distributed", None)
     with pytest.raises(MissingPartError, match="pip install"), executor_for(1, "tcp://x:1"):
         pass
-
-
-def test_an_input_error_survives_the_way_from_a_worker() -> None:
-    """With its message and its problems."""
-    import pickle  # noqa: PLC0415 - what a process pool does
-
-    error = SettingError("w", "1.5 is out of range")
-    back = pickle.loads(pickle.dumps(error))  # noqa: S301
-    assert isinstance(back, InputError)
-    assert str(back) == str(error)
-    assert back.problems == error.problems
