@@ -124,6 +124,12 @@ def test_neither_names_nor_order_change_the_order_of_storing(
     assert unload(renamed, asked) == [names[name] for name in unload(boxes, requests)]
 
 
+def test_where_requests_leave_no_room_h_still_decides() -> None:
+    """At w = 1 all that nobody wants scores 0."""
+    boxes = cut(11, 25)
+    assert unload(boxes, w=1.0) == unload(boxes, w=0.0)
+
+
 def test_ties_go_higher_then_nearer_then_outward_then_left() -> None:
     """All with the same h."""
     wide = [box(f"y{y}", (1.4, y, 0.0), (0.2, 0.2, 0.2)) for y in (-0.8, 0.6)]
@@ -352,7 +358,8 @@ def test_the_compiled_run_of_a_whole_pallet_is_algorithm_1_step_by_step() -> Non
         prisms = prisms_of(seen.shape for seen in boxes)
         links, _ = link_prisms(prisms, EXACT)
         order = np.full(len(boxes), NONE, np.int32)
-        h, rank = position_priority(prisms, X_MAX), geometric_rank(prisms)
+        h = position_priority(prisms, X_MAX)
+        rank = geometric_rank(prisms, h)
         stored = run(links, h, rank, wanted, priorities, w, NONE, order)
         requests = [
             Request(priority=float(p), box=boxes[slot].id)
@@ -369,7 +376,8 @@ def test_the_compiled_run_stops_before_a_box_and_at_a_cycle() -> None:
         prisms = prisms_of(seen.shape for seen in boxes)
         links, _ = link_prisms(prisms, EXACT)
         none, order = np.zeros(0, np.int32), np.zeros(len(boxes), np.int32)
-        h, rank = position_priority(prisms, X_MAX), geometric_rank(prisms)
+        h = position_priority(prisms, X_MAX)
+        rank = geometric_rank(prisms, h)
         return run(links, h, rank, none, np.zeros(0), 0.5, until, order)
 
     assert stored([box("a", (1.4, 0, 0), (1, 1, 1))], until=0) == 0

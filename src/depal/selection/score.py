@@ -100,20 +100,23 @@ def stepped(score: Array) -> Array:
     return np.rint(score / STEP)
 
 
-def geometric_rank(prisms: Array) -> npt.NDArray[np.int64]:
+def geometric_rank(prisms: Array, h: Array | None = None) -> npt.NDArray[np.int64]:
     """Where each box stands in the order that settles ties: a total order by geometry alone.
 
-    Higher first, then nearer to the robot, then nearer to a side, then left before right. No
-    two boxes share a centre, so names and the order of the input cannot change it.
+    Greater h first, where h is given; then higher, then nearer to the robot, then nearer to a
+    side, then left before right. No two boxes share a centre, so names and the order of the
+    input cannot change it.
 
     Args:
         prisms: (n, 8).
+        h: (n,) Eq. (1); so that a score that leaves no room for it, as at w = 1, still does.
 
     Returns:
         (n,) 0 for the first.
     """
     x, y, z = stepped(prisms[:, :3].T)
-    order = np.lexsort((-y, -np.abs(y), x, -z))
+    keys = [-y, -np.abs(y), x, -z]
+    order = np.lexsort(keys if h is None else [*keys, -stepped(h)])
     rank = np.empty(len(prisms), np.int64)
     rank[order] = np.arange(len(prisms))
     return rank

@@ -13,7 +13,7 @@ import numpy as np
 from depal.domain import Perceived, Request
 from depal.selection.decision import Decision, Outcome, Refused, Scores
 from depal.selection.graph import BlockingGraph
-from depal.selection.score import ScoreRule, mixed_score, position_priority, stepped
+from depal.selection.score import ScoreRule, geometric_rank, mixed_score, position_priority, stepped
 from depal.selection.walks import blocker_table, find_cycle, propagate
 from depal.selection.wanted import Aim, aims_of, strongest_first
 
@@ -81,7 +81,7 @@ def _scored(
     h = position_priority(graph.prisms, rule.x_max, rule.weights)
     l = propagate(graph.links, *strongest_first(graph, aims))  # noqa: E741 - the paper's name
     s = mixed_score(h, l, rule.w)
-    rank = graph.geometric_rank()
+    rank = geometric_rank(graph.prisms, h)
     used = graph.used_slots
     queue = used[np.lexsort((rank[used], -stepped(s[used])))]
     return Scores(queue, h, l, s), rank

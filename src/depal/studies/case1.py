@@ -151,7 +151,7 @@ def count_trial(trial: Trial, weights: Sequence[float]) -> list[int]:
     prisms = pallet.prisms
     links, _ = link_prisms(prisms, EXACT)
     h = position_priority(prisms, pallet.x_max)
-    rank = geometric_rank(prisms)
+    rank = geometric_rank(prisms, h)
 
     def count(w: float, priority: float) -> int:
         return count_before(links, h, rank, trial.requested, priority, w)

@@ -177,7 +177,7 @@ def _left(
     links, _ = link_prisms(pallet.prisms, EXACT)
     h = position_priority(pallet.prisms, pallet.x_max)
     order = np.full(steps, NONE, np.int32)
-    stored = unload(links, h, geometric_rank(pallet.prisms), wanted, priorities, w, NONE, order)
+    stored = unload(links, h, geometric_rank(pallet.prisms, h), wanted, priorities, w, NONE, order)
     return np.setdiff1d(np.arange(len(pallet), dtype=np.int32), order[:stored])
 
 
