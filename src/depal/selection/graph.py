@@ -156,7 +156,7 @@ class BlockingGraph:
         The same boxes give the same cycle whatever their names and order: it is the one met
         first from the first box by geometry, and starts at its own first box by geometry.
         """
-        slots = find_cycle(self._links, self.geometric_rank())
+        slots = find_cycle(self._links, self._prisms)
         return tuple(self.at(slot).id for slot in slots)
 
     # What the selection works on: boxes in numbered slots

@@ -14,7 +14,7 @@ from depal.domain import Perceived, Request
 from depal.selection.decision import Decision, Outcome, Refused, Scores
 from depal.selection.graph import BlockingGraph
 from depal.selection.score import ScoreRule, geometric_rank, mixed_score, position_priority, stepped
-from depal.selection.walks import blocker_table, find_cycle, propagate
+from depal.selection.walks import blocker_table, propagate
 from depal.selection.wanted import Aim, aims_of, strongest_first
 
 G = TypeVar("G")
@@ -49,7 +49,7 @@ def select(
         The decision; its target is to be stored next (lines 19 and 23).
     """
     aims, pending = aims_of(graph, requests)
-    scores, rank = _scored(graph, aims, rule)
+    scores = _scored(graph, aims, rule)
     free = scores.slots[graph.links.blockers[scores.slots] == 0]
     refusals: dict[int, str] = {}
     target, grasp = None, None
@@ -65,7 +65,7 @@ def select(
         grasp=grasp,
         aims=aims,
         pending=pending,
-        cycle=tuple(graph.at(slot).id for slot in find_cycle(graph.links, rank)),
+        cycle=graph.cycle(),
         rule=rule,
         scores=scores,
         boxes={slot: graph.at(slot) for slot in scores.slots.tolist()},
@@ -74,9 +74,7 @@ def select(
     )
 
 
-def _scored(
-    graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule
-) -> tuple[Scores, np.ndarray[tuple[int], np.dtype[np.int64]]]:
+def _scored(graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule) -> Scores:
     """Lines 6-13: every box with h, l and s, and the queue ordered by s."""
     h = position_priority(graph.prisms, rule.x_max, rule.weights)
     l = propagate(graph.links, *strongest_first(graph, aims))  # noqa: E741 - the paper's name
@@ -84,7 +82,7 @@ def _scored(
     rank = geometric_rank(graph.prisms, h)
     used = graph.used_slots
     queue = used[np.lexsort((rank[used], -stepped(s[used])))]
-    return Scores(queue, h, l, s), rank
+    return Scores(queue, h, l, s)
 
 
 def _outcome(graph: BlockingGraph, target: Perceived | None) -> Outcome:

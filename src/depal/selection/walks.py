@@ -18,6 +18,7 @@ from depal.selection.links import (
     Indices,
     Links,
 )
+from depal.selection.score import geometric_rank
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -145,12 +146,12 @@ def blocker_table(links: Links) -> tuple[Indices, Indices, Indices]:
     return offsets, blockers, relations
 
 
-def find_cycle(links: Links, rank: npt.NDArray[np.int64]) -> list[int]:
+def find_cycle(links: Links, prisms: Array) -> list[int]:
     """One cycle of blockers, in slots, each blocked by the next; empty where there is none.
 
     Args:
         links: the graph.
-        rank: (slots,) a total order of the boxes; it alone decides which cycle is named.
+        prisms: (slots, 8); their geometry alone decides which cycle is named.
 
     Returns:
         The cycle met first from the first box behind one, beginning with its first box.
@@ -158,6 +159,7 @@ def find_cycle(links: Links, rank: npt.NDArray[np.int64]) -> list[int]:
     stuck = never_free(links)
     if not stuck.any():
         return []
+    rank = geometric_rank(prisms)
     slots = np.flatnonzero(stuck)
     slot = int(slots[np.argmin(rank[slots])])
     met: dict[int, int] = {}
