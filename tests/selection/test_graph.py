@@ -88,7 +88,7 @@ def test_a_copy_of_the_edges_is_changed_on_its_own() -> None:
 
 
 def test_more_edges_than_first_thought_are_found_too() -> None:
-    """Fifty thin plates on one another have more than forty edges a box."""
+    """A hundred thin plates on one another: every one blocked by all above it."""
     plates = [box(f"p{i}", (1.4, 0, i * 0.01), (0.4, 0.4, 0.01)) for i in range(100)]
     assert BlockingGraph(plates, EXACT).edges == 100 * 99 // 2
 

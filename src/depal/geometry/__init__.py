@@ -4,7 +4,7 @@ One convention for names: `b_from_a` is the pose that carries coordinates in fra
 coordinates in frame b, so `cell_from_pallet.apply(point_in_pallet)` is that point in the cell.
 """
 
-from depal.geometry.kernel import kernel
+from depal.geometry.kernel import kernel, loop_kernel
 from depal.geometry.oriented_box import OrientedBox
 from depal.geometry.pose import Matrix3, Pose, Vector3
 from depal.geometry.prism import (
@@ -27,6 +27,7 @@ __all__ = [
     "holds_centre",
     "kernel",
     "lateral_interval",
+    "loop_kernel",
     "prism_of",
     "prisms_of",
     "slice_at",

@@ -1,7 +1,7 @@
 """The one place that names the compiler of the hot loops."""
 
 from collections.abc import Callable
-from typing import TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import numba
 
@@ -17,3 +17,14 @@ def kernel(function: F) -> F:
     """
     compiler = numba.njit(cache=True, nogil=True, error_model="numpy", forceinline=True)
     return cast("F", compiler(function))
+
+
+def loop_kernel(function: F) -> F:
+    """A kernel that makes no array of its own, only reads and writes those it is given.
+
+    So it needs no reference counts, whose atomic steps cost more than a short loop's work: the
+    graph of 200 boxes is built in half the time (numba's own option for this has no public
+    name; it is named here alone).
+    """
+    options: dict[str, Any] = {"cache": True, "nogil": True, "forceinline": True, "_nrt": False}
+    return cast("F", numba.njit(error_model="numpy", **options)(function))

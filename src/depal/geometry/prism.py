@@ -12,7 +12,7 @@ from collections.abc import Iterable
 import numpy as np
 import numpy.typing as npt
 
-from depal.geometry.kernel import kernel
+from depal.geometry.kernel import loop_kernel
 from depal.geometry.oriented_box import OrientedBox
 
 PRISM_WIDTH = 8
@@ -64,7 +64,7 @@ def _fold(c: float, s: float) -> tuple[float, float]:
     return (-c, -s) if c < 0 else (c, s)
 
 
-@kernel
+@loop_kernel
 def lateral_interval(prisms: Array, a: int) -> tuple[float, float]:
     """The extent along y of the prism in row a [m]."""
     reach = (
@@ -73,7 +73,7 @@ def lateral_interval(prisms: Array, a: int) -> tuple[float, float]:
     return prisms[a, Y] - reach, prisms[a, Y] + reach
 
 
-@kernel
+@loop_kernel
 def slice_at(prisms: Array, a: int, y: float) -> tuple[float, float]:
     """Where the line at height y in the ground plane cuts the rectangle of row a: x interval [m].
 
@@ -90,17 +90,24 @@ def slice_at(prisms: Array, a: int, y: float) -> tuple[float, float]:
     return prisms[a, X] + low, prisms[a, X] + high
 
 
-@kernel
+@loop_kernel
 def footprint_overlap(prisms: Array, a: int, b: int) -> float:
     """How deep the rectangles of two rows reach into each other on the ground [m].
 
     The smallest shift that parts them, by the separating axis theorem; not positive when they
     are apart (then it is minus the widest gap along one of the four edge directions).
     """
+    if prisms[a, SIN] == 0 and prisms[b, SIN] == 0:  # most boxes: the same number in fewer steps
+        return min(
+            float(
+                prisms[a, HALF_LENGTH] + prisms[b, HALF_LENGTH] - abs(prisms[b, X] - prisms[a, X])
+            ),
+            float(prisms[a, HALF_WIDTH] + prisms[b, HALF_WIDTH] - abs(prisms[b, Y] - prisms[a, Y])),
+        )
     return min(_depth_along_edges(prisms, a, b), _depth_along_edges(prisms, b, a))
 
 
-@kernel
+@loop_kernel
 def _depth_along_edges(prisms: Array, a: int, b: int) -> float:
     """How deep the rectangles reach into each other along a's two edge directions [m]."""
     dx, dy = prisms[b, X] - prisms[a, X], prisms[b, Y] - prisms[a, Y]
@@ -115,7 +122,7 @@ def _depth_along_edges(prisms: Array, a: int, b: int) -> float:
     )
 
 
-@kernel
+@loop_kernel
 def holds_centre(prisms: Array, a: int, b: int) -> bool:
     """Whether the centre of row b lies strictly inside row a."""
     dx, dy = prisms[b, X] - prisms[a, X], prisms[b, Y] - prisms[a, Y]

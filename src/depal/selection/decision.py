@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Generic, TypeVar
+from typing import Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -96,7 +96,7 @@ class Decision(Generic[G]):
         cycle: a cycle of blockers, each blocked by the next, where there is one.
         rule: what the scores depend on.
         scores: by slot, in the order in which boxes were tried.
-        boxes: the perceived box of each slot.
+        boxes: (slots,) the perceived box of each slot, None where it is empty.
         blocker_table: offsets, blockers and relations by slot.
         refusals: why boxes that nothing blocks could not be grasped, by slot.
     """
@@ -109,7 +109,7 @@ class Decision(Generic[G]):
     cycle: tuple[BoxId, ...]
     rule: ScoreRule
     scores: Scores = field(repr=False)
-    boxes: dict[int, Perceived] = field(repr=False)
+    boxes: tuple[Perceived | None, ...] = field(repr=False)
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
 
@@ -124,18 +124,22 @@ class Decision(Generic[G]):
         Raises:
             PileError: that box was not perceived.
         """
-        for slot, perceived in self.boxes.items():
-            if perceived.id == box:
+        slots = self.scores.slots.tolist()
+        for slot in slots:
+            if self._box(slot).id == box:
                 return self._verdict(slot)
-        exists = did_you_mean(str(box), (str(seen.id) for seen in self.boxes.values()))
+        exists = did_you_mean(str(box), (str(self._box(slot).id) for slot in slots))
         raise PileError("", [Problem("decision", f"no box {box!r} was perceived", exists=exists)])
 
+    def _box(self, slot: int) -> Perceived:
+        return cast("Perceived", self.boxes[slot])
+
     def _verdict(self, slot: int) -> Verdict:
-        box = self.boxes[slot]
+        box = self._box(slot)
         offsets, blockers, relations = self.blocker_table
         span = slice(offsets[slot], offsets[slot + 1])
         blocked_by = frozenset(
-            Blocker(self.boxes[other].id, Relation(relation))
+            Blocker(self._box(other).id, Relation(relation))
             for other, relation in zip(
                 blockers[span].tolist(), relations[span].tolist(), strict=True
             )
@@ -145,7 +149,7 @@ class Decision(Generic[G]):
         return Verdict(box, h, l, s, blocked_by, fate, reason)
 
     def _fate(self, slot: int, blockers: frozenset[Blocker]) -> tuple[Fate, str]:
-        box = self.boxes[slot]
+        box = self._box(slot)
         if self.target is not None and box.id == self.target.id:
             return Fate.CHOSEN, "the best score of all boxes that can be grasped"
         if box.id in self.cycle:

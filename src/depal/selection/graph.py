@@ -1,5 +1,6 @@
 """The graph G of the perceived boxes, kept up to date from look to look and pick to pick."""
 
+import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -26,7 +27,6 @@ from depal.selection.relations import CLASH, PERCEIVED, Relation, Tolerances
 from depal.selection.score import geometric_rank
 from depal.selection.walks import blockers_of, find_cycle, mark_reachable
 
-_EDGES_PER_BOX = 40
 _SMALLEST = 16
 
 
@@ -51,7 +51,8 @@ def link_prisms(prisms: Array, tolerances: Tolerances) -> tuple[Links, tuple[int
     slots = len(prisms)
     lows, highs = _lateral_extents(prisms)
     order = np.argsort(lows, kind="stable").astype(np.int32)
-    edges = max(_SMALLEST, slots * _EDGES_PER_BOX)
+    # A box has more neighbours above and before it the more there are; room for most piles.
+    edges = max(_SMALLEST, int(slots * (8 + math.sqrt(slots))))
     while True:
         links = Links.empty(slots, edges)
         ended = link_all(prisms, order, lows, highs, tolerances.overlap, tolerances.slack, links)
@@ -186,6 +187,10 @@ class BlockingGraph:
         if box is None:
             raise LookupError(slot)
         return box
+
+    def by_slot(self) -> tuple[Perceived | None, ...]:
+        """(slots,) what is in each slot now, None where it is empty."""
+        return tuple(self._boxes)
 
     def slot_of(self, box: BoxId) -> int | None:
         """The slot of a box, or None when it is not perceived."""

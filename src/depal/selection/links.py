@@ -10,7 +10,7 @@ from typing import NamedTuple, Self
 import numpy as np
 import numpy.typing as npt
 
-from depal.geometry import kernel
+from depal.geometry import loop_kernel
 from depal.selection.relations import A_SHIFT, BOTH, CLASH, relate
 
 Array = npt.NDArray[np.float64]
@@ -45,8 +45,9 @@ class Links(NamedTuple):
     @classmethod
     def empty(cls, slots: int, edges: int) -> Self:
         """Room for that many boxes and edges, none of them in use."""
-        rows = np.full((edges, 7), NONE, np.int32)
-        rows[:-1, NEXT_BLOCKER] = np.arange(1, edges)
+        rows = np.empty((edges, 7), np.int32)
+        rows[:, NEXT_BLOCKER] = np.arange(1, edges + 1)
+        rows[-1:, NEXT_BLOCKER] = NONE
         first = 0 if edges else NONE
         return cls(np.full((slots, 3), NONE, np.int32), rows, np.array([first, 0], np.int32))
 
@@ -72,7 +73,7 @@ class Links(NamedTuple):
         return room
 
 
-@kernel
+@loop_kernel
 def link(links: Links, blocked: int, blocker: int, relation: int) -> bool:
     """Adds an edge; False, and nothing done, when there is no room."""
     edge = links.free[0]
@@ -97,7 +98,7 @@ def link(links: Links, blocked: int, blocker: int, relation: int) -> bool:
     return True
 
 
-@kernel
+@loop_kernel
 def unlink(links: Links, slot: int) -> None:
     """Takes every edge of a slot away; the slot keeps its box."""
     edge = links.slots[slot, FIRST_BLOCKED]
@@ -119,7 +120,7 @@ def unlink(links: Links, slot: int) -> None:
     links.slots[slot, BLOCKERS] = 0
 
 
-@kernel
+@loop_kernel
 def _leave_blockers(links: Links, blocked: int, edge: int) -> None:
     before, after = links.edges[edge, LAST_BLOCKER], links.edges[edge, NEXT_BLOCKER]
     if before == NONE:
@@ -130,7 +131,7 @@ def _leave_blockers(links: Links, blocked: int, edge: int) -> None:
         links.edges[after, LAST_BLOCKER] = before
 
 
-@kernel
+@loop_kernel
 def _leave_blocked(links: Links, blocker: int, edge: int) -> None:
     before, after = links.edges[edge, LAST_BLOCKED], links.edges[edge, NEXT_BLOCKED]
     if before == NONE:
@@ -141,21 +142,21 @@ def _leave_blocked(links: Links, blocker: int, edge: int) -> None:
         links.edges[after, LAST_BLOCKED] = before
 
 
-@kernel
+@loop_kernel
 def _give_back(links: Links, edge: int) -> None:
     links.edges[edge, NEXT_BLOCKER] = links.free[0]
     links.free[0] = edge
     links.free[1] -= 1
 
 
-@kernel
+@loop_kernel
 def remove(links: Links, slot: int) -> None:
     """The box in a slot has left: its edges go, the slot is empty."""
     unlink(links, slot)
     links.slots[slot, BLOCKERS] = EMPTY
 
 
-@kernel
+@loop_kernel
 def link_pair(links: Links, a: int, b: int, code: int) -> bool:
     """Adds the edges of a pair code; False when there is no room."""
     b_to_a, a_to_b = code & BOTH, (code >> A_SHIFT) & BOTH
@@ -164,7 +165,7 @@ def link_pair(links: Links, a: int, b: int, code: int) -> bool:
     return not a_to_b or link(links, b, a, a_to_b)
 
 
-@kernel
+@loop_kernel
 def link_all(
     prisms: Array,
     order: Indices,
@@ -205,7 +206,7 @@ def link_all(
     return BUILT, BUILT
 
 
-@kernel
+@loop_kernel
 def relate_to_all(
     prisms: Array, slot: int, links: Links, overlap: float, slack: float, codes: Indices
 ) -> int:
@@ -236,7 +237,7 @@ def relate_to_all(
     return edges
 
 
-@kernel
+@loop_kernel
 def link_one(links: Links, slot: int, codes: Indices) -> None:
     """Adds the edges that `relate_to_all` found for a slot; there must be room for them."""
     for other in range(len(codes)):

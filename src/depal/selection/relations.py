@@ -17,8 +17,8 @@ from depal.errors import SettingError
 from depal.geometry import (
     footprint_overlap,
     holds_centre,
-    kernel,
     lateral_interval,
+    loop_kernel,
     slice_at,
 )
 
@@ -66,7 +66,7 @@ PERCEIVED = Tolerances(overlap=0.01, slack=0.02)
 """For poses from a camera, some millimetres and some tenths of a degree off."""
 
 
-@kernel
+@loop_kernel
 def relate(prisms: Array, a: int, b: int, overlap: float, slack: float) -> int:
     """The pair code of two prisms: who blocks whom.
 

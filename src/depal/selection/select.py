@@ -68,7 +68,7 @@ def select(
         cycle=graph.cycle(),
         rule=rule,
         scores=scores,
-        boxes={slot: graph.at(slot) for slot in scores.slots.tolist()},
+        boxes=graph.by_slot(),
         blocker_table=blocker_table(graph.links),
         refusals=refusals,
     )

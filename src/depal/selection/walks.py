@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from depal.geometry import kernel
+from depal.geometry import kernel, loop_kernel
 from depal.selection.links import (
     BLOCKED,
     BLOCKER,
@@ -24,7 +24,7 @@ Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
 
 
-@kernel
+@loop_kernel
 def mark_reachable(links: Links, slot: int, marked: Mask, stack: Indices) -> int:
     """Marks T(b): everything reachable from a box over its blockers, itself included.
 
