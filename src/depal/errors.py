@@ -5,7 +5,9 @@
     │   ├── DeliveryError   a delivery file or a delivery note
     │   ├── RequestError    a request, or a file of them
     │   ├── PileError       a set of perceived boxes that cannot stand in one world
+    │   ├── TaskError       a task file, or a call of a task, that cannot be used
     │   └── SettingError    a number or a name outside its range
+    ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
 
 A message says what is wrong, where, what was expected, and what exists.
@@ -19,11 +21,13 @@ __all__ = [
     "DeliveryError",
     "DepalError",
     "InputError",
+    "JournalError",
     "MissingPartError",
     "PileError",
     "Problem",
     "RequestError",
     "SettingError",
+    "TaskError",
     "did_you_mean",
 ]
 
@@ -101,12 +105,20 @@ class PileError(InputError):
     """Perceived boxes that cannot stand in one world."""
 
 
+class TaskError(InputError):
+    """A task file, or a call of a task, that cannot be used."""
+
+
 class SettingError(InputError):
     """A setting outside its range."""
 
     def __init__(self, where: str, what: str, expected: str = "", exists: str = "") -> None:
         """States the one setting that is wrong."""
         super().__init__("", [Problem(where, what, expected, exists)])
+
+
+class JournalError(DepalError):
+    """A journal that is damaged, edited, or written by another version; nothing moves on it."""
 
 
 class MissingPartError(DepalError):
