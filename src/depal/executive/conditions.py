@@ -191,11 +191,16 @@ def holds(  # noqa: PLR0911 - one return a kind of condition
         case AnyOf(parts):
             return any(holds(part, facts, binding, lasted) for part in parts)
         case Lasting(part, _):
-            return holds(part, facts, binding, lasted) and lasted(condition)
+            return holds(part, facts, binding, lasted) and lasted(condition, binding)
 
 
-Lasted = Callable[[Lasting], bool]
-"""Whether the part of a time condition has held for long enough by now."""
+Lasted = Callable[[Lasting, Binding], bool]
+"""Whether the part of a grounded time condition has held for long enough by now."""
+
+
+def at_once(_: Lasting, __: Binding) -> bool:
+    """A world in which time conditions hold as soon as their part does."""
+    return True
 
 
 def is_set(value: Value) -> bool:
