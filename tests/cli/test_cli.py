@@ -1,6 +1,7 @@
 """Commands as a stranger types them: good input, bad input, and what is written."""
 
 import json
+import os
 import subprocess
 import sys
 from collections.abc import Callable
@@ -119,7 +120,9 @@ def test_shipped_deliveries_are_unloaded(depal: Run, tmp_path: Path) -> None:
     assert status == 0
     (entry,) = json.loads((tmp_path / "u.json").read_text())["deliveries"]
     assert entry["taken"] == entry["boxes"]
-    assert entry["served"] != [None]
+    (request,) = entry["requests"]
+    assert request["gtin"] == gtin
+    assert 0 <= request["boxes_before"] < entry["boxes"]
 
 
 def test_a_delivery_is_checked(depal: Run, tmp_path: Path) -> None:
@@ -153,7 +156,16 @@ def test_everything_wrong_with_a_delivery_is_said_at_once(depal: Run, tmp_path: 
         (("study", "table1", "--generators", "cubik"), "did you mean 'cubic'?"),
         (("study", "table1", "--plot", "nowhere/t.png"), "--plot: there is no folder 'nowhere'"),
         (("study", "table1", "--json", "."), "--json: '.' is a folder"),
-        (("study", "fig5", "--plot", "x.jpeg"), ".png"),
+        (("study", "fig5", "--plot", "x.jpeg"), "--plot: 'x.jpeg' is no picture's name"),
+        (("study", "fig5", "--plot", "x.png", "--json", "x.png"), "two different files"),
+        (("study", "table1", "--generators", "layered,xxx"), "xxx"),
+        (("study", "table1", "--generators", "layered,"), "''"),
+        (
+            ("study", "table1", "--generators", "layered,cubic", "--plot", "x.png"),
+            "one name in --generators",
+        ),
+        (("study", "table1", "--dask", "nonsense"), "--dask: 'nonsense' is no address"),
+        (("delivery", "check", ""), "no file named"),
         (("study", "unload", "--deliveries", "dev-00"), "did you mean"),
         (("delivery", "check", "nowhere.json"), "nowhere.json"),
         (("schema", "delivry"), "did you mean 'delivery'?"),
@@ -191,6 +203,35 @@ def test_a_schema_is_a_json_schema(depal: Run, name: str) -> None:
     status, out, _ = depal("schema", name)
     assert status == 0
     jsonschema.Draft202012Validator.check_schema(json.loads(out))
+
+
+def test_a_link_is_followed_and_a_pipe_is_not_replaced(depal: Run, tmp_path: Path) -> None:
+    """What stands at the target stays what it is."""
+    real, link, pipe = tmp_path / "real.json", tmp_path / "link.json", tmp_path / "pipe"
+    real.write_text("old")
+    link.symlink_to(real)
+    depal("study", "fig5", "--json", link)
+    assert link.is_symlink()
+    assert "requested" in real.read_text()
+    os.mkfifo(pipe)
+    with subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE, text=True) as reader:  # noqa: S603, S607
+        assert depal("study", "fig5", "--json", pipe)[0] == 0
+        assert reader.stdout is not None
+        assert "requested" in reader.stdout.read()
+    assert pipe.is_fifo()
+    assert sorted(tmp_path.iterdir()) == sorted([real, link, pipe])
+
+
+def test_names_from_files_are_no_mark_up(depal: Run, tmp_path: Path) -> None:
+    """Brackets in a delivery's id are brackets."""
+    file = tmp_path / "d.json"
+    line = {"gtin": "12000823098180", "name": "x", "size": [0.3, 0.2, 0.2], "mass": 1, "count": 1}
+    pallet = {"size": [1.2, 0.8, 0.144]}
+    file.write_text(json.dumps({"id": "a[/red]b", "pallet": pallet, "lines": [line]}))
+    status, out, _ = depal("delivery", "check", file)
+    assert status == 0
+    assert "a[/red]b" in out
+    assert "mass [kg]" in out
 
 
 def test_the_doctor_finds_this_machine_well(depal: Run, tmp_path: Path) -> None:

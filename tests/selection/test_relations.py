@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from piles import box, cut_piles, loose_piles, slow_edges
 
 from depal.domain import BoxId, Detection
-from depal.errors import SettingError
-from depal.geometry import OrientedBox
+from depal.errors import PileError, SettingError
+from depal.geometry import OrientedBox, footprint_overlap, prisms_of
 from depal.selection import EXACT, PERCEIVED, Blocker, BlockingGraph, Relation, Tolerances
 
 A, B = BoxId("a"), BoxId("b")
@@ -103,3 +103,63 @@ def test_a_tolerance_must_be_a_length(value: float) -> None:
         Tolerances(overlap=value, slack=0.0)
     with pytest.raises(SettingError, match=r"tolerance slack: .* expected a length of 0 m"):
         Tolerances(overlap=0.0, slack=value)
+
+
+@pytest.mark.parametrize("sunk", [0.021, 0.05, 0.1, 0.19])
+def test_a_box_that_seems_to_sink_in_deeply_still_lies_on_top(sunk: float) -> None:
+    """No wrong pose frees a box that carries another; beyond its centre it is a clash."""
+    assert blockers_of_a(box("b", (1.4, 0, 0.4 - sunk), (0.4, 0.4, 0.4)), PERCEIVED) == {
+        Relation.ON_TOP
+    }
+
+
+@pytest.mark.parametrize("deep", [0.021, 0.05, 0.1, 0.19])
+def test_a_box_that_seems_to_reach_into_the_one_behind_still_occludes_it(deep: float) -> None:
+    """The same along x."""
+    assert blockers_of_a(box("b", (1.0 + deep, 0, 0), (0.4, 0.4, 0.4)), PERCEIVED) == {
+        Relation.OCCLUDES
+    }
+
+
+@given(loose_piles())
+def test_boxes_that_reach_into_each_other_are_related_unless_they_stand_side_by_side(
+    boxes: list[Detection],
+) -> None:
+    """Whatever a bad picture says, who lies over whom or before whom is decided somehow."""
+    graph = BlockingGraph(boxes)
+    prisms = prisms_of([seen.shape for seen in boxes])
+    for i, one in enumerate(boxes):
+        for j, two in enumerate(boxes[:i]):
+            ground = footprint_overlap(prisms, i, j)
+            rise = abs(prisms[i, 2] - prisms[j, 2])
+            height = prisms[i, 5] + prisms[j, 5] - rise
+            if rise > 0 and ground > 0.01 and height <= ground:
+                related = {b.box for b in graph.blockers(one.id)} | {
+                    b.box for b in graph.blockers(two.id)
+                }
+                assert {one.id, two.id} & related
+
+
+@pytest.mark.parametrize(
+    ("centre", "size"),
+    [
+        ((math.nan, 0, 0), (1, 1, 1)),
+        ((0, 0, 0), (1, -1, 1)),
+        ((0, 0, math.inf), (1, 1, 1)),
+        ((0, 0, 0), (0, 1, 1)),
+    ],
+)
+def test_what_has_no_place_or_no_size_is_no_box(
+    centre: tuple[float, float, float], size: tuple[float, float, float]
+) -> None:
+    """Refused when the graph is made, when it comes, and when it moves."""
+    bad = Detection(A, OrientedBox.upright(centre, size))
+    with pytest.raises(PileError, match=r"box 'a' has centre .* sizes above 0 m"):
+        BlockingGraph([bad])
+    graph = BlockingGraph([box("a", (5, 5, 0), (0.1, 0.1, 0.1))])
+    with pytest.raises(PileError, match=r"box 'a' has centre"):
+        graph.move(bad)
+    graph.remove(A)
+    with pytest.raises(PileError, match=r"box 'a' has centre"):
+        graph.add(bad)
+    assert len(graph) == 0

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from depal.studies.statistics import Sample
 
 
-@given(st.lists(st.floats(-100, 100), min_size=1, max_size=50))
+@given(st.lists(st.floats(-100, 100), min_size=2, max_size=50))
 def test_mean_and_deviation_are_the_populations(values: list[float]) -> None:
     """Not the sample's."""
     sample = Sample.of(values)
@@ -29,7 +29,8 @@ def test_the_interval_holds_the_true_mean_in_95_of_100_cases() -> None:
 
 
 def test_nothing_has_no_mean() -> None:
-    """And no error either."""
-    sample = Sample.of([])
-    assert math.isnan(sample.mean)
-    assert math.isnan(sample.error)
+    """And no error either; one value alone has a mean and no error."""
+    assert math.isnan(Sample.of([]).mean)
+    assert math.isnan(Sample.of([]).error)
+    assert Sample.of([3.0]).mean == 3.0
+    assert math.isnan(Sample.of([3.0]).error)

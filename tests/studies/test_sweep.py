@@ -4,7 +4,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 
-from depal.errors import DepalError, MissingPartError, SettingError
+from depal.errors import MissingPartError, SettingError
 from depal.studies.sweep import executor_for, sweep
 from depal.studies.table1 import table1
 
@@ -62,8 +62,13 @@ def test_no_workers_are_refused() -> None:
 def test_an_address_that_is_none_is_refused() -> None:
     """Before any work begins."""
     pytest.importorskip("distributed")
-    with pytest.raises(DepalError, match="no Dask scheduler answers there"), executor_for(1, "x:y"):
-        pass
+    for address in ("nonsense", "", "http://x", "x:y"):
+        with pytest.raises(SettingError) as caught, executor_for(1, address):
+            pass
+        assert str(caught.value) == (
+            f"--dask: {address!r} is no address of a Dask scheduler; "
+            "expected tcp://HOST:PORT or tls://HOST:PORT"
+        )
 
 
 def test_dask_that_is_not_installed_is_named(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,6 +8,7 @@ from depal.app.files import Json
 from depal.app.reports.report import Report, plain_table
 from depal.app.unload import deliveries_of
 from depal.domain import Delivery
+from depal.errors import DeliveryError, Problem
 from depal.logistics import read_requests
 
 
@@ -24,11 +25,14 @@ def check_delivery(reference: str, requests: Path | None) -> Report:
     Raises:
         InputError: everything that is wrong with the files.
     """
+    if not reference:
+        exists = f"shipped: {', '.join(delivery.id for delivery in deliveries_of(''))}"
+        raise DeliveryError("", [Problem("FILE", "no file named", "a delivery file", exists)])
     deliveries = deliveries_of(reference)
     asked = 0
     if requests is not None:
         asked = sum(len(read_requests(requests, delivery)) for delivery in deliveries)
-    title = f"{reference}: {len(deliveries)} valid {_plural('delivery', len(deliveries))}"
+    title = f"{reference}: {len(deliveries)} valid {_plural(len(deliveries))}"
     table = plain_table(
         title,
         "delivery",
@@ -43,7 +47,7 @@ def check_delivery(reference: str, requests: Path | None) -> Report:
     for delivery in deliveries:
         height = stack_height(delivery)
         sides = [side for line in delivery.lines for side in line.product.size]
-        table.add_row(
+        table.row(
             delivery.id,
             str(len(delivery.lines)),
             str(len(delivery.boxes)),
@@ -81,5 +85,5 @@ def _fields(delivery: Delivery) -> Json:
     }
 
 
-def _plural(word: str, count: int) -> str:
-    return word if count == 1 else word.removesuffix("y") + "ies"
+def _plural(count: int) -> str:
+    return "delivery" if count == 1 else "deliveries"

@@ -5,13 +5,16 @@ import math
 import os
 import shlex
 import sys
-import tempfile
 from pathlib import Path
 
 from depal import __version__
 from depal.errors import SettingError
 
 Json = dict[str, "Json"] | list["Json"] | str | float | int | bool | None
+
+
+PICTURES = (".png", ".svg", ".pdf")
+"""The suffixes of pictures that can be drawn."""
 
 
 def write_json(path: Path, fields: dict[str, Json]) -> None:
@@ -39,13 +42,16 @@ def write_text(path: Path, text: str, option: str) -> None:
         SettingError: the folder does not exist or cannot be written to.
     """
     checked_target(path, option)
+    target = path.resolve()
+    part = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name}.")
-        with os.fdopen(handle, "w", encoding="utf-8") as file:
-            file.write(text)
-        Path(name).chmod(0o644)
-        Path(name).replace(path)
+        if target.exists() and not target.is_file():
+            target.write_text(text, encoding="utf-8")  # a pipe or a device: nothing to replace
+            return
+        part.write_text(text, encoding="utf-8")
+        part.replace(target)
     except OSError as error:
+        part.unlink(missing_ok=True)
         what = f"cannot write {str(path)!r}: {error.strerror}"
         raise SettingError(option, what, "a file in a folder that can be written to") from error
 
@@ -60,9 +66,27 @@ def checked_target(path: Path | None, option: str) -> None:
         return
     if path.is_dir():
         raise SettingError(option, f"{str(path)!r} is a folder", "the name of a file")
-    if not path.parent.is_dir():
+    if not path.resolve().parent.is_dir():
         what = f"there is no folder {str(path.parent)!r}"
         raise SettingError(option, what, "a file in a folder that exists")
+
+
+def checked_targets(json_file: Path | None, plot: Path | None) -> None:
+    """Refuses targets of a study before it begins.
+
+    Raises:
+        SettingError: one cannot be written, the picture's suffix is unknown, or both are one.
+    """
+    checked_target(json_file, "--json")
+    checked_target(plot, "--plot")
+    if plot is None:
+        return
+    if plot.suffix.lower() not in PICTURES:
+        what = f"{plot.name!r} is no picture's name"
+        raise SettingError("--plot", what, f"a name that ends in {', '.join(PICTURES)}")
+    if json_file is not None and json_file.resolve() == plot.resolve():
+        what = f"--json and --plot both name {str(plot)!r}"
+        raise SettingError("--plot", what, "two different files")
 
 
 def finite(value: Json) -> Json:

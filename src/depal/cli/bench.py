@@ -24,6 +24,6 @@ def selection(seed: Seed = 0, json_file: JsonFile = None) -> None:
     with progress_bar("Selection") as progress:
         report = bench_report("selection", bench_selection(seed, progress))
     for part in report.shown:
-        console().print(part, highlight=False)
+        console().print(part, highlight=False, markup=False)
     if json_file is not None:
         write_json(json_file, report.fields)

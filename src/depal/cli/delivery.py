@@ -30,6 +30,6 @@ def check(
     checked_target(json_file, "--json")
     report = check_delivery(file, requests)
     for part in report.shown:
-        console().print(part, highlight=False)
+        console().print(part, highlight=False, markup=False)
     if json_file is not None:
         write_json(json_file, report.fields)

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 from rich.console import Console
+from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
@@ -84,12 +85,14 @@ def doctor(
 ) -> None:
     """Say what works on this machine; exit status 1 where something that is needed does not."""
     from depal.app.doctor import examine  # noqa: PLC0415 - fast help
-    from depal.app.files import write_json  # noqa: PLC0415
+    from depal.app.files import checked_target, write_json  # noqa: PLC0415
 
+    checked_target(json_file, "--json")
     findings = examine()
-    marks = {True: "[green]works[/]  ", False: "[red]BROKEN[/] ", None: "[dim]missing[/]"}
+    marks = {True: ("works  ", "green"), False: ("BROKEN ", "red"), None: ("missing", "dim")}
     for finding in findings:
-        console().print(f"{marks[finding.works]} {finding.name}: {finding.detail}", highlight=False)
+        mark = Text.assemble(marks[finding.works], f" {finding.name}: {finding.detail}")
+        console().print(mark, highlight=False)
     if json_file is not None:
         write_json(json_file, {"findings": [finding.fields for finding in findings]})
     if any(finding.works is False for finding in findings):

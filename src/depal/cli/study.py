@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from depal.cli.output import Dask, JsonFile, PlotFile, Seed, Workers, console
+from depal.errors import SettingError
 
 if TYPE_CHECKING:
     from depal.app.reports import Report
@@ -23,10 +24,10 @@ def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None
 
     out = console()
     for part in report.shown:
-        out.print(part, highlight=False)
+        out.print(part, highlight=False, markup=False)
     if plot is not None and report.draw is not None:
         save_figure(report.draw(), plot)
-        out.print(f"figure: {plot}", highlight=False)
+        out.print(f"figure: {plot}", highlight=False, markup=False)
     if json_file is not None:
         write_json(json_file, report.fields)
     if not report.holds:
@@ -34,10 +35,9 @@ def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None
 
 
 def _check_targets(json_file: Path | None, plot: Path | None) -> None:
-    from depal.app.files import checked_target  # noqa: PLC0415 - fast help
+    from depal.app.files import checked_targets  # noqa: PLC0415 - fast help
 
-    checked_target(json_file, "--json")
-    checked_target(plot, "--plot")
+    checked_targets(json_file, plot)
 
 
 @study.command()
@@ -55,18 +55,21 @@ def table1(
     """Table I: boxes stored before the requested one, by h alone and by s."""
     from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
     from depal.app.reports import table1_report  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
     from depal.studies.table1 import table1 as run  # noqa: PLC0415
 
     _check_targets(json_file, plot)
+    names = named_generators(generators)
+    if plot is not None and len(names) > 1:
+        what = f"a picture shows one generator, {len(names)} are named"
+        raise SettingError("--plot", what, "one name in --generators")
     start = time.perf_counter()
     results = []
     with executor_for(workers, dask) as executor:
-        for generator in generators.split(","):
-            with progress_bar(f"Table I, {generator}") as progress:
-                results.append(
-                    run(pallets, seed, generator.strip(), executor=executor, progress=progress)
-                )
+        for name in names:
+            with progress_bar(f"Table I, {name}") as progress:
+                results.append(run(pallets, seed, name, executor=executor, progress=progress))
     _finish(table1_report(results, time.perf_counter() - start), json_file, plot)
 
 

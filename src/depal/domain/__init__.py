@@ -4,6 +4,7 @@ from depal.domain.box import Box, Detection, Perceived, Recognition
 from depal.domain.delivery import (
     EURO_PALLET,
     PALLET_FRONT_X,
+    STACK_TOLERANCE,
     Delivery,
     DeliveryLine,
     StackedCase,
@@ -18,6 +19,7 @@ from depal.domain.settings import checked_share
 __all__ = [
     "EURO_PALLET",
     "PALLET_FRONT_X",
+    "STACK_TOLERANCE",
     "Box",
     "BoxId",
     "Delivery",

@@ -10,6 +10,9 @@ from depal.geometry import OrientedBox, Pose, Vector3
 EURO_PALLET: Vector3 = (1.2, 0.8, 0.144)
 """Length, width and deck height of the pallet that the default cell takes [m]."""
 
+STACK_TOLERANCE = 0.001
+"""How far the cases of a delivery's stack may overlap or hang apart and still be believed [m]."""
+
 PALLET_FRONT_X = 1.4
 """Where the default cell's pallet begins, seen from the robot's base [m]."""
 

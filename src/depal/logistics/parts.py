@@ -3,10 +3,11 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from depal.domain import STACK_TOLERANCE
 from depal.geometry import Vector3
 from depal.logistics.findings import Finding
 
-TOLERANCE = 0.001
+TOLERANCE = STACK_TOLERANCE
 """Sizes and places that differ by no more are the same [m]."""
 
 ROUNDING = 1e-9

@@ -1,7 +1,8 @@
 """Which box next: section II-C, Eqs. (1)-(3) and Algorithm 1."""
 
+from depal.selection.building import link_prisms
 from depal.selection.decision import Decision, Fate, Outcome, Refused, Scores, Verdict
-from depal.selection.graph import Blocker, BlockingGraph, link_prisms
+from depal.selection.graph import Blocker, BlockingGraph
 from depal.selection.relations import EXACT, PERCEIVED, Relation, Tolerances
 from depal.selection.score import (
     PAPER_WEIGHTS,

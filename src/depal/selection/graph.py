@@ -1,6 +1,5 @@
 """The graph G of the perceived boxes, kept up to date from look to look and pick to pick."""
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
@@ -10,14 +9,13 @@ import numpy.typing as npt
 from depal.domain import BoxId, Perceived
 from depal.errors import PileError, Problem, did_you_mean
 from depal.geometry import PRISM_WIDTH, prism_of, prisms_of
+from depal.selection.building import link_prisms
 from depal.selection.links import (
     BUILT,
     EMPTY,
     NONE,
-    POOL_FULL,
     Array,
     Links,
-    link_all,
     link_one,
     relate_to_all,
     remove,
@@ -36,35 +34,6 @@ class Blocker:
 
     box: BoxId
     relation: Relation
-
-
-def link_prisms(prisms: Array, tolerances: Tolerances) -> tuple[Links, tuple[int, int]]:
-    """The edges between prisms that sit in slots 0, 1, 2, ...
-
-    Args:
-        prisms: (n, 8).
-        tolerances: how wrong the poses may be.
-
-    Returns:
-        The edges, and a pair of slots whose boxes are in one place or (BUILT, BUILT).
-    """
-    slots = len(prisms)
-    lows, highs = _lateral_extents(prisms)
-    order = np.argsort(lows, kind="stable").astype(np.int32)
-    # A box has more neighbours above and before it the more there are; room for most piles.
-    edges = max(_SMALLEST, int(slots * (8 + math.sqrt(slots))))
-    while True:
-        links = Links.empty(slots, edges)
-        ended = link_all(prisms, order, lows, highs, tolerances.overlap, tolerances.slack, links)
-        if ended[0] != POOL_FULL:
-            return links, ended
-        edges *= 4
-
-
-def _lateral_extents(prisms: Array) -> tuple[Array, Array]:
-    # As geometry's lateral_interval, for all rows at once.
-    reach = np.abs(prisms[:, 7]) * prisms[:, 3] + np.abs(prisms[:, 6]) * prisms[:, 4]
-    return prisms[:, 1] - reach, prisms[:, 1] + reach
 
 
 class BlockingGraph:
@@ -275,6 +244,8 @@ class BlockingGraph:
             if self._slots.setdefault(box.id, slot) != slot:
                 raise _taken(box.id)
         self._prisms = prisms_of(box.shape for box in boxes)
+        for slot in np.flatnonzero(~_solid(self._prisms))[:1].tolist():
+            raise _no_box(boxes[slot])
         self._links, (a, b) = link_prisms(self._prisms, self.tolerances)
         if a != BUILT:
             raise _in_one_place(boxes[a], boxes[b])
@@ -290,6 +261,9 @@ class BlockingGraph:
     def _place(self, slot: int, box: Perceived) -> None:
         before = self._prisms[slot].copy()
         self._prisms[slot] = prism_of(box.shape)
+        if not _solid(self._prisms[slot : slot + 1])[0]:
+            self._prisms[slot] = before
+            raise _no_box(box)
         codes = np.empty(len(self._boxes), np.int32)
         overlap, slack = self.tolerances.overlap, self.tolerances.slack
         edges = relate_to_all(self._prisms, slot, self._links, overlap, slack, codes)
@@ -325,3 +299,14 @@ def _in_one_place(first: Perceived, second: Perceived) -> PileError:
     what = f"boxes {names[0]!r} and {names[1]!r} are in one place"
     where = f"pile at ({x:.3f}, {y:.3f}, {z:.3f}) m"
     return PileError("", [Problem(where, what, "boxes that stand beside each other")])
+
+
+def _solid(prisms: Array) -> npt.NDArray[np.bool_]:
+    """(n,) whether each prism has a place and a size."""
+    finite = np.isfinite(prisms).all(axis=1)
+    return np.logical_and(finite, (prisms[:, 3:6] > 0).all(axis=1))
+
+
+def _no_box(box: Perceived) -> PileError:
+    what = f"box {box.id!r} has centre {box.shape.centre} and size {box.shape.size}"
+    return PileError("", [Problem("pile", what, "finite numbers, sizes above 0 m")])

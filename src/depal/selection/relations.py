@@ -3,7 +3,9 @@
 Two relations make an edge of G from b1 to b2: b2 lies on b1 (their footprints overlap and b2 is
 higher, at whatever distance), or b2 occludes b1 (they overlap as seen from the robot, which
 looks along +x, and b2 is nearer). Real poses are slightly wrong, so both are asked with
-tolerances; the answer depends on the two boxes alone, never on their names or their order.
+tolerances, and boxes that seem to reach deep into each other are related by the direction in
+which they part most easily: no wrong pose frees a box that carries another. The answer depends
+on the two boxes alone, never on their names or their order.
 """
 
 import math
@@ -89,16 +91,21 @@ def relate(prisms: Array, a: int, b: int, overlap: float, slack: float) -> int:
     rise = abs(prisms[a, Z] - prisms[b, Z])
     shared_height = prisms[a, HALF_HEIGHT] + prisms[b, HALF_HEIGHT] - rise
     code = 0
-    if shared_height <= slack and rise > 0 and footprint_overlap(prisms, a, b) > overlap:
-        code = A_ON_B if prisms[a, Z] > prisms[b, Z] else B_ON_A
+    if rise > 0:
+        ground = footprint_overlap(prisms, a, b)
+        # Deeper than any slack: the boxes part most easily upwards, so one stands on the other.
+        if ground > overlap and shared_height <= max(slack, ground):
+            code = A_ON_B if prisms[a, Z] > prisms[b, Z] else B_ON_A
     if shared_height > overlap:
         if holds_centre(prisms, a, b) or holds_centre(prisms, b, a):
             return CLASH
         near_a, far_a = slice_at(prisms, a, (low + high) / 2)
         near_b, far_b = slice_at(prisms, b, (low + high) / 2)
-        if near_a + far_a < near_b + far_b:
-            if near_b - far_a >= -slack:
+        shared_depth = min(far_a, far_b) - max(near_a, near_b)
+        # The same along x: in front, unless they part more easily sideways or upwards.
+        if shared_depth <= max(slack, min(high - low, shared_height)):
+            if near_a + far_a < near_b + far_b:
                 code |= A_BEFORE_B
-        elif near_b + far_b < near_a + far_a and near_a - far_b >= -slack:
-            code |= B_BEFORE_A
+            elif near_b + far_b < near_a + far_a:
+                code |= B_BEFORE_A
     return code

@@ -3,11 +3,19 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from depal.domain import BoxId, Delivery, Recognition, Request, cell_from_pallet
+from depal.domain import (
+    STACK_TOLERANCE,
+    BoxId,
+    Delivery,
+    Recognition,
+    Request,
+    cell_from_pallet,
+)
 from depal.errors import DeliveryError, Problem
-from depal.selection import EXACT, BlockingGraph, Outcome, ScoreRule, leaf_alone, select
+from depal.selection import BlockingGraph, Outcome, ScoreRule, Tolerances, leaf_alone, select
 
-_TOUCH = 1e-6
+STACKED = Tolerances(overlap=STACK_TOLERANCE, slack=2 * STACK_TOLERANCE)
+"""For the stacks of deliveries, which are believed to a millimetre."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,6 +29,7 @@ class Unloading:
         outcome: how the last selection ended.
         cycle: the boxes that block one another, where that is why.
         burdened: indices that were taken while a box lay on them, by the stack's own geometry.
+        requests: what was asked for.
         served: per request the number of boxes stored before it was served, None where never.
     """
 
@@ -30,6 +39,7 @@ class Unloading:
     outcome: Outcome
     cycle: tuple[BoxId, ...]
     burdened: tuple[int, ...]
+    requests: tuple[Request, ...]
     served: tuple[int | None, ...]
 
     @property
@@ -77,7 +87,7 @@ def unload_delivery(delivery: Delivery, requests: Sequence[Request], w: float) -
     boxes = perceived_stack(delivery)
     index_of = {box.id: index for index, box in enumerate(boxes)}
     rule = ScoreRule(w=w, x_max=far_side(delivery))
-    graph = BlockingGraph(boxes, EXACT)
+    graph = BlockingGraph(boxes, STACKED)
     served: list[int | None] = [None] * len(requests)
     sequence: list[int] = []
     while True:
@@ -98,6 +108,7 @@ def unload_delivery(delivery: Delivery, requests: Sequence[Request], w: float) -
         outcome=decision.outcome,
         cycle=decision.cycle,
         burdened=tuple(burdened_picks(delivery, sequence)),
+        requests=tuple(requests),
         served=tuple(served),
     )
 
@@ -132,8 +143,13 @@ def burdened_picks(delivery: Delivery, sequence: Iterable[int]) -> list[int]:
         (x, y, z), (a, b, c) = stack[index].corner, stack[index].size
         for other in left:
             (u, v, t), (k, m, _) = stack[other].corner, stack[other].size
-            over = min(x + a, u + k) - max(x, u) > _TOUCH and min(y + b, v + m) - max(y, v) > _TOUCH
-            if over and t >= z + c - _TOUCH:
+            over = _reach(x, a, u, k) > STACK_TOLERANCE and _reach(y, b, v, m) > STACK_TOLERANCE
+            if over and t > z + c - 2 * STACK_TOLERANCE:
                 early.append(index)
                 break
     return early
+
+
+def _reach(low: float, length: float, other: float, other_length: float) -> float:
+    """How long two intervals overlap [m]."""
+    return min(low + length, other + other_length) - max(low, other)

@@ -33,8 +33,8 @@ class Sample:
 
     @property
     def error(self) -> float:
-        """The standard error of the mean."""
-        return self.std / math.sqrt(self.n) if self.n else math.nan
+        """The standard error of the mean; NaN where one value or none says nothing of it."""
+        return self.std / math.sqrt(self.n) if self.n > 1 else math.nan
 
     @property
     def ci95(self) -> tuple[float, float]:

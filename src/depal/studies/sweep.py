@@ -1,12 +1,13 @@
 """Many independent pieces of work, on whatever there is to do them."""
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import TypeVar, cast
 
-from depal.errors import DepalError, MissingPartError, SettingError
+from depal.errors import MissingPartError, SettingError
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -64,9 +65,8 @@ def executor_for(workers: int, dask: str | None = None) -> Iterator[Executor | N
         The executor, or None for this process.
 
     Raises:
-        SettingError: the number of workers is not positive.
+        SettingError: the number of workers is not positive, or no scheduler answers.
         MissingPartError: Dask is asked for and not installed.
-        DepalError: no scheduler answers at the address.
     """
     if dask is not None:
         with _dask_executor(dask) as executor:
@@ -89,10 +89,13 @@ def _dask_executor(address: str) -> Iterator[Executor]:
     except ImportError as error:
         message = "Dask is not installed; pip install 'depal[dask]'"
         raise MissingPartError(message) from error
+    if not re.fullmatch(r"(tcp|tls|ws|wss|ucx|inproc)://\S+", address):
+        what = f"{address!r} is no address of a Dask scheduler"
+        raise SettingError("--dask", what, "tcp://HOST:PORT or tls://HOST:PORT")
     try:
         client = Client(address, timeout="10s", set_as_default=False)  # type: ignore[no-untyped-call]
     except (OSError, ValueError) as error:
-        message = f"--dask {address}: no Dask scheduler answers there; expected tcp://HOST:PORT"
-        raise DepalError(message) from error
+        what = f"no Dask scheduler answers at {address}"
+        raise SettingError("--dask", what, "the address that `dask scheduler` prints") from error
     with client:
         yield cast("Executor", client.get_executor(pure=False))  # type: ignore[no-untyped-call]

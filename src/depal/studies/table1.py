@@ -20,6 +20,8 @@ MEAN_WITHIN, STD_WITHIN, REDUCTION_WITHIN = 0.5, 1.0, 0.35
 PLATEAU_FROM, PLATEAU_LOW, PLATEAU_HIGH = 0.5, 4.8, 5.8
 GAP_AT, GAP_WITHIN = 0.9, 0.15
 _ERRORS = 3
+ENOUGH = 300
+"""Fewer pallets say too little of a mean for a check that could fail."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +115,7 @@ def table1(
         for column, w in enumerate(weights)
     )
     checks = [*_invariants(case)]
-    if generator == "guillotine" and used.any():
+    if generator == "guillotine" and used.sum() >= ENOUGH:
         checks += _against_expectation(case, rows)
         exact = pallets >= FULL_SIZE and seed == DEFAULT_SEED
         checks += _against_paper(rows, errors=0 if exact else _ERRORS)

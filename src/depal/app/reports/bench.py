@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from depal.app.files import Json
-from depal.app.reports.report import Report, plain_table
+from depal.app.reports.report import Report, plain_table, verdict
 from depal.studies.bench import Figure
 
 
@@ -21,14 +21,14 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
     fields: list[Json] = []
     for figure in figures:
         sign = "<=" if figure.better == "lower" else ">="
-        table.add_row(
+        table.row(
             figure.name,
             f"{figure.value:.3g}",
             f"{sign} {figure.target:g}",
             figure.unit,
             str(figure.n),
             "" if figure.peer is None else f"{figure.peer:.3g}",
-            "[green]met[/]" if figure.met else "[red]missed[/]",
+            verdict(figure.met, "met", "missed"),
         )
         fields.append(
             {

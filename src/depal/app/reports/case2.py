@@ -39,7 +39,7 @@ def case2_report(results: Sequence[LayoutResult], w: float, seed: int, seconds: 
     fields: list[Json] = []
     for result in results:
         run = result.nominal
-        table.add_row(
+        table.row(
             result.layout.name,
             f"{run.rank_without}.",
             f"{paper.CASE_2_RANK_WITHOUT}.",

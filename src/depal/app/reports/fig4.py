@@ -18,7 +18,7 @@ def fig4_report() -> Report:
     table = plain_table("Fig. 4: h(b) over the pallet [m]", "where", "x", "y", "z", "h")
     for name, index in (("first", int(h.argmax())), ("last", int(h.argmin()))):
         x, y, z = centres[index]
-        table.add_row(name, f"{x:.2f}", f"{y:.2f}", f"{z:.2f}", f"{h[index]:.3f}")
+        table.row(name, f"{x:.2f}", f"{y:.2f}", f"{z:.2f}", f"{h[index]:.3f}")
     return Report(
         fields={"x_max": X_MAX, "highest": float(h.max()), "lowest": float(h.min())},
         shown=[table],

@@ -19,7 +19,7 @@ def fig5_report() -> Report:
         "s after",
     )
     for verdict in sorted(group.verdicts, key=lambda verdict: names.index(verdict.box.id)):
-        table.add_row(
+        table.row(
             verdict.box.id,
             ", ".join(sorted(blocker.box for blocker in verdict.blockers)) or "-",
             f"{verdict.h:.3f}",

@@ -1,5 +1,7 @@
 """Fig. 8 beside the paper's."""
 
+from rich.text import Text
+
 from depal.app.files import Json
 from depal.app.reports.report import Report, mean_and_interval, plain_table, plus_minus
 from depal.studies import paper
@@ -26,7 +28,7 @@ def fig8_report(result: Table1, seconds: float) -> Report:
     for row in result.rows:
         printed = paper.TABLE_1.get(row.w)
         low, high = row.reduction.ci95
-        table.add_row(
+        table.row(
             f"w = {row.w}",
             plus_minus(row.reduction),
             f"{low:.2f} .. {high:.2f}",
@@ -48,7 +50,7 @@ def fig8_report(result: Table1, seconds: float) -> Report:
             "rows": fields,
             "broken": [*broken],
         },
-        shown=[table, *(f"[red]BROKEN[/]: {name}" for name in broken)],
+        shown=[table, *(Text(f"BROKEN: {name}", style="red") for name in broken)],
         draw=lambda: reduction_over_weight(
             [Reduction(row.w, row.reduction.mean, *row.reduction.ci95) for row in result.rows],
             [(w, row.reduction) for w, row in paper.TABLE_1.items()],

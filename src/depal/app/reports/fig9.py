@@ -1,6 +1,7 @@
 """Fig. 9, and what is true of it on average."""
 
 from matplotlib.figure import Figure
+from rich.text import Text
 
 from depal.app.files import Json
 from depal.app.reports.report import (
@@ -37,7 +38,7 @@ def fig9_report(result: Fig9, pallets: int, seed: int, seconds: float) -> Report
     )
     fields: list[Json] = []
     for row in result.rows:
-        table.add_row(
+        table.row(
             str(row.requests),
             plus_minus(row.h, 3),
             plus_minus(row.hl, 3),
@@ -51,7 +52,7 @@ def fig9_report(result: Fig9, pallets: int, seed: int, seconds: float) -> Report
                 "increase": mean_and_interval(row.increase),
             }
         )
-    table.caption = (
+    table.caption = Text(
         f"w = {result.w}. An increase is real where its interval does not hold 0. The paper shows "
         "one pallet; so does the picture, and it is the plainest of 200."
     )

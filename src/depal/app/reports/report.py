@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from matplotlib.figure import Figure
 from rich.console import RenderableType
 from rich.table import Table
+from rich.text import Text
 
 from depal.app.files import Json
 from depal.studies.statistics import Sample
@@ -44,9 +45,23 @@ def plus_minus(sample: Sample, digits: int = 2) -> str:
     return f"{sample.mean:.{digits}f} ± {(high - low) / 2:.{digits}f}"
 
 
-def plain_table(title: str, *columns: str) -> Table:
+class PlainTable(Table):
+    """A table whose cells are said as they are: no mark-up in names from files."""
+
+    def row(self, *cells: str | Text, last: bool = False) -> None:
+        """Adds a row; `last` draws a line below it."""
+        texts = [Text(cell) if isinstance(cell, str) else cell for cell in cells]
+        self.add_row(*texts, end_section=last)
+
+
+def plain_table(title: str, *columns: str) -> PlainTable:
     """A table whose first column is text and whose others are numbers."""
-    table = Table(title=title, title_justify="left", title_style="bold")
+    table = PlainTable(title=Text(title, style="bold"), title_justify="left")
     for index, column in enumerate(columns):
-        table.add_column(column, justify="right" if index else "left")
+        table.add_column(Text(column), justify="right" if index else "left")
     return table
+
+
+def verdict(holds: bool, good: str, bad: str) -> Text:  # noqa: FBT001 - the verdict itself
+    """A word in green or in red."""
+    return Text(good, style="green") if holds else Text(bad, style="red")

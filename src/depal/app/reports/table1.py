@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from matplotlib.figure import Figure
 from rich.console import RenderableType
 from rich.table import Table
+from rich.text import Text
 
 from depal.app.files import Json
 from depal.app.reports.report import (
@@ -13,6 +14,7 @@ from depal.app.reports.report import (
     mean_and_std,
     plain_table,
     plus_minus,
+    verdict,
 )
 from depal.studies import paper
 from depal.studies.drawing import TableRow, table_figure
@@ -39,7 +41,7 @@ def table1_report(results: Sequence[Table1], seconds: float) -> Report:
             "pallets": results[0].pallets,
             "seed": results[0].seed,
             "seconds": seconds,
-            "limit": results[0].rows[0].limit.mean,
+            "limit": results[0].rows[0].limit.mean if len(results) == 1 else None,
             "rows": [_row_fields(result, row) for result in results for row in result.rows],
             "checks": [
                 _check_fields(result, check) for result in results for check in result.checks
@@ -47,7 +49,7 @@ def table1_report(results: Sequence[Table1], seconds: float) -> Report:
             "stuck": sum(result.stuck for result in results),
         },
         shown=shown,
-        draw=lambda: _figure(results[0]),
+        draw=(lambda: _figure(results[0])) if len(results) == 1 else None,
         holds=all(check.holds for result in results for check in result.checks),
     )
 
@@ -89,7 +91,7 @@ def _table(result: Table1) -> Table:
             if printed
             else ("", "", "")
         )
-        table.add_row(
+        table.row(
             f"w = {row.w}",
             "avg",
             plus_minus(row.h),
@@ -100,7 +102,7 @@ def _table(result: Table1) -> Table:
             saved,
         )
         stds = (f"{printed.h_std:.2f}", f"{printed.hl_std:.2f}") if printed else ("", "")
-        table.add_row(
+        table.row(
             "",
             "std",
             f"{row.h.std:.2f}",
@@ -109,10 +111,10 @@ def _table(result: Table1) -> Table:
             stds[1],
             "",
             "",
-            end_section=True,
+            last=True,
         )
     limit = plus_minus(result.rows[0].limit)
-    table.caption = (
+    table.caption = Text(
         f"± is half a 95 % interval of the mean. No order under G can be below {limit}: "
         "mean |T(r)| - 1. The paper has 50 pallets a weight."
     )
@@ -122,8 +124,8 @@ def _table(result: Table1) -> Table:
 def _checks(checks: Sequence[Check]) -> RenderableType:
     table = plain_table("What must hold", "", "measured", "allowed", "")
     for check in checks:
-        mark = "[green]holds[/]" if check.holds else "[red]BROKEN[/]"
-        table.add_row(check.name, f"{check.measured:.3g}", check.allowed, mark)
+        mark = verdict(check.holds, "holds", "BROKEN")
+        table.row(check.name, f"{check.measured:.3g}", check.allowed, mark)
     return table
 
 

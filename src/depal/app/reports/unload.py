@@ -19,7 +19,7 @@ def unload_report(results: Sequence[Unloading], w: float, seconds: float) -> Rep
         The report; it holds when every box was taken, and none with a box on it.
     """
     table = plain_table(
-        f"{len(results)} deliveries unloaded on geometry alone, w = {w}",
+        f"Unloaded on geometry alone, w = {w}: {len(results)}",
         "delivery",
         "boxes",
         "taken",
@@ -29,7 +29,7 @@ def unload_report(results: Sequence[Unloading], w: float, seconds: float) -> Rep
     )
     fields: list[Json] = []
     for result in results:
-        table.add_row(
+        table.row(
             result.delivery,
             str(result.boxes),
             str(len(result.sequence)),
@@ -44,7 +44,15 @@ def unload_report(results: Sequence[Unloading], w: float, seconds: float) -> Rep
                 "taken": len(result.sequence),
                 "burdened": [*result.burdened],
                 "sequence": [*result.sequence],
-                "served": [*result.served],
+                "requests": [
+                    {
+                        "gtin": request.gtin,
+                        "box": request.box,
+                        "priority": request.priority,
+                        "boxes_before": at,
+                    }
+                    for request, at in zip(result.requests, result.served, strict=True)
+                ],
                 "cycle": [*result.cycle],
             }
         )

@@ -138,7 +138,8 @@ def _scene(paper: Sheet, boxes: Sequence[SeenBox], arrows: Collection[Edge]) -> 
     whole, room, rim = around([*faces, load]), RULER * inch, RIM * inch
     window = (whole.left - room, whole.right + rim, whole.bottom - room, whole.top + rim)
     axes, _ = paper.picture(paper.whole, window)
-    rulers(axes, load, scale)
+    if not stairs:  # boxes that are moved aside fit no ruler
+        rulers(axes, load, scale)
     covers = covers_of(faces, rows)
     vertices = vertices_of(faces, covers, RADIUS * inch)
     spots = [vertex.spot for vertex in vertices]

@@ -47,10 +47,14 @@ def save_figure(figure: Figure, path: str | Path) -> Path:
         what = f"there is no folder {str(folder)!r} for {target.name!r}"
         raise SettingError("figure", what, "a folder that exists", did_you_mean(folder.name, there))
     content = _rendered(figure, suffix)
-    part = folder / f".{target.name}.{os.getpid()}.part"
+    file = target.resolve()
+    part = file.with_name(f".{file.name}.{os.getpid()}.part")
     try:
+        if file.exists() and not file.is_file():
+            file.write_bytes(content)  # a pipe or a device: nothing to replace
+            return target
         part.write_bytes(content)
-        part.replace(target)
+        part.replace(file)
     except OSError as problem:
         part.unlink(missing_ok=True)
         what = f"{str(target)!r} cannot be written: {problem.strerror}"

@@ -14,7 +14,12 @@ the same state gives the same pallet on every machine.
 """
 
 from depal.studies.pallets.guillotine import guillotine_boxes
-from depal.studies.pallets.named import GENERATORS, PalletGenerator, generator_named
+from depal.studies.pallets.named import (
+    GENERATORS,
+    PalletGenerator,
+    generator_named,
+    named_generators,
+)
 from depal.studies.pallets.pallet import RandomPallet
 from depal.studies.pallets.volume import COUNTS, SIZE, SMALLEST, X_MAX, X_NEAR
 
@@ -29,4 +34,5 @@ __all__ = [
     "RandomPallet",
     "generator_named",
     "guillotine_boxes",
+    "named_generators",
 ]

@@ -39,3 +39,15 @@ def generator_named(name: str) -> PalletGenerator:
     except KeyError:
         exists = did_you_mean(name, GENERATORS)
         raise SettingError("generator", f"unknown name {name!r}", exists=exists) from None
+
+
+def named_generators(names: str) -> tuple[str, ...]:
+    """The names in a list with commas, each once, in their order.
+
+    Raises:
+        SettingError: one of them names no generator.
+    """
+    found = dict.fromkeys(name.strip() for name in names.split(","))
+    for name in found:
+        generator_named(name)
+    return tuple(found)
