@@ -163,3 +163,11 @@ def test_what_has_no_place_or_no_size_is_no_box(
     with pytest.raises(PileError, match=r"box 'a' has centre"):
         graph.add(bad)
     assert len(graph) == 0
+
+
+def test_boxes_exactly_abreast_do_not_hide_each_other() -> None:
+    """However far they seem to reach into each other sideways."""
+    graph = BlockingGraph(
+        [box("a", (1.4, 0.0, 0.0), (0.4, 1.0, 1.0)), box("b", (1.4, 0.55, 0.0), (0.4, 1.0, 1.0))]
+    )
+    assert graph.edges == 0
