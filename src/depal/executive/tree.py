@@ -5,7 +5,7 @@ agree after every event is its first law.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import Enum
 
 from depal.errors import Problem, TaskError, did_you_mean
@@ -41,6 +41,7 @@ class Node:
         parent: the index of its parent, -1 for the root.
         schema: the schema that it grounds.
         args: the things that the schema's parameters stand for, in order.
+        binding: the same by parameter.
         edge: the precondition on the edge from its parent; always true for the root.
         edge_binding: what the parent's parameters stand for.
         bias: of the step, a constant part of the emphasis.
@@ -52,17 +53,12 @@ class Node:
     parent: int
     schema: Schema
     args: tuple[str, ...]
+    binding: Binding
     edge: Condition
     edge_binding: Binding
     bias: float
     depth: int
-    children: tuple[int, ...]
-
-    @property
-    def binding(self) -> Binding:
-        """What the schema's parameters stand for."""
-        names = (param.name for param in self.schema.params)
-        return dict(zip(names, self.args, strict=True))
+    children: Sequence[int]
 
     @property
     def concrete(self) -> bool:
@@ -125,9 +121,10 @@ def ground(repository: Repository, name: str, args: Sequence[str]) -> Tree:
         TaskError: an unknown task or subtask, a wrong number of arguments, or a task that
             decomposes into itself without end.
     """
-    root = _schema(repository, name, tuple(args))
+    given = tuple(args)
+    root = _schema(repository, name, given)
     draft = _Draft(repository, name)
-    draft.add(root, tuple(args), -1, ALWAYS, {}, 0.0)
+    draft.add(root, given, -1, ALWAYS, {}, 0.0, 0)
     return Tree(tuple(draft.nodes))
 
 
@@ -139,7 +136,7 @@ class _Draft:
         self.name = name
         self.nodes: list[Node] = []
 
-    def add(  # noqa: PLR0913, PLR0917 - what a node is
+    def add(
         self,
         schema: Schema,
         args: tuple[str, ...],
@@ -147,23 +144,25 @@ class _Draft:
         edge: Condition,
         edge_binding: Binding,
         bias: float,
+        depth: int,
     ) -> int:
         """Adds a schema and everything below it; its index."""
-        depth = self.nodes[parent].depth + 1 if parent >= 0 else 0
         if depth > DEEPEST:
             what = f"{self.name} decomposes into itself without end"
             raise TaskError("", [Problem(schema.name, what, "a task that ends in actions")])
         index = len(self.nodes)
-        node = Node(index, parent, schema, args, edge, edge_binding, bias, depth, ())
-        self.nodes.append(node)
+        binding = {param.name: arg for param, arg in zip(schema.params, args, strict=True)}
+        below: list[int] = []
+        self.nodes.append(
+            Node(index, parent, schema, args, binding, edge, edge_binding, bias, depth, below)
+        )
         if isinstance(schema, Task):
-            binding = node.binding
-            below = []
             for step in schema.steps:
-                given = tuple(name_of(arg, binding) for arg in step.args)
+                given = tuple([name_of(arg, binding) for arg in step.args])
                 subtask = _schema(self.repository, step.schema, given)
-                below.append(self.add(subtask, given, index, step.when, binding, step.bias))
-            self.nodes[index] = replace(node, children=tuple(below))
+                below.append(
+                    self.add(subtask, given, index, step.when, binding, step.bias, depth + 1)
+                )
         return index
 
 

@@ -1,0 +1,276 @@
+"""The rim: writes what the engine decides, then runs primitives as asynchronous functions.
+
+Everything happens in reaction to something: a fact, a report, a timer. Nothing polls, so an
+idle executive does not wake up.
+"""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+from depal.errors import JournalError, Problem, TaskError, did_you_mean
+from depal.executive import events as ev
+from depal.executive.clock import Clock
+from depal.executive.commands import Command, Probe, Start, Stop
+from depal.executive.conditions import Key, Value
+from depal.executive.engine import Call, Engine, Report, Step
+from depal.executive.events import Change, Outcome, encode
+from depal.executive.journal import Entry, Journal
+from depal.executive.schema import Action, Cancel
+from depal.executive.snapshot import freeze
+
+SNAPSHOT_EVERY = 1000
+"""Events between snapshots."""
+
+
+class Stopped(Exception):  # noqa: N818 - it is no error: the primitive was asked to stop
+    """Raised in a primitive at its checkpoint when it is to stop."""
+
+
+@dataclass(slots=True)
+class Context:
+    """What a primitive is given.
+
+    Attributes:
+        attempt: the number of the attempt; messages go out under it.
+        action: the schema.
+        args: the things that its parameters stand for, by parameter.
+        facts: what is the case now; for reading.
+        stop_reason: why it is to stop, None while it is not.
+    """
+
+    attempt: int
+    action: Action
+    args: Mapping[str, str]
+    facts: Mapping[Key, Value]
+    stop_reason: str | None = field(default=None)
+
+    async def checkpoint(self) -> None:
+        """A moment at which the primitive may be broken off.
+
+        Raises:
+            Stopped: it is to stop; let it through after bringing the device to rest.
+        """
+        await asyncio.sleep(0)
+        if self.stop_reason is not None:
+            raise Stopped(self.stop_reason)
+
+
+Primitive = Callable[[Context], Awaitable[Report]]
+"""Does a concrete schema's work, and reports the facts that it has changed."""
+
+
+class Runtime:
+    """An engine with a journal, a clock and primitives."""
+
+    def __init__(
+        self,
+        engine: Engine,
+        journal: Journal,
+        clock: Clock,
+        primitives: Mapping[str, Primitive],
+        probes: Mapping[str, Primitive] | None = None,
+    ) -> None:
+        """Binds primitives and probes by name.
+
+        Args:
+            engine: new, or folded from the journal.
+            journal: where events are written before commands are carried out.
+            clock: the time.
+            primitives: one for each action.
+            probes: one for each probe that an action names.
+
+        Raises:
+            TaskError: an action or a probe without its function.
+        """
+        self.engine = engine
+        self.journal = journal
+        self.clock = clock
+        self._primitives = dict(primitives)
+        self._probes = dict(probes or {})
+        self._running: dict[int, tuple[asyncio.Task[None], Context]] = {}
+        self._listeners: list[Callable[[int, Sequence[ev.Event]], None]] = []
+        self._timer: asyncio.TimerHandle | None = None
+        self._failure: JournalError | None = None
+        self._unsnapped = 0
+        self._check_bindings()
+
+    # Inputs; each returns when it is written and its commands have begun
+
+    def allocate(self, *calls: Call) -> None:
+        """Allocates tasks."""
+        self._do(lambda at: self.engine.allocate(calls, at))
+
+    def change(self, facts: Iterable[Change], source: str) -> None:
+        """Changes facts together."""
+        changes = tuple(facts)
+        self._do(lambda at: self.engine.change(changes, source, at))
+
+    def prioritise(self, tree: int, priority: float) -> None:
+        """Gives a tree another priority."""
+        self._do(lambda at: self.engine.prioritise(tree, priority, at))
+
+    def withdraw(self, tree: int, reason: str) -> None:
+        """Ends a tree that is no longer wanted."""
+        self._do(lambda at: self.engine.withdraw(tree, reason, at))
+
+    def retry(self, tree: int, node: int) -> None:
+        """Lets a primitive be tried again."""
+        self._do(lambda at: self.engine.retry(tree, node, at))
+
+    def hold(self, source: str) -> None:
+        """Nothing starts any more."""
+        self._do(lambda at: self.engine.hold(source, at))
+
+    def start(self, source: str) -> None:
+        """A person lets the executive go on."""
+        self._do(lambda at: self.engine.start(source, at))
+
+    def restart(self) -> None:
+        """After folding a journal: held, probing what is in doubt."""
+        self._do(self.engine.restart)
+
+    # Watching
+
+    def listen(self, listener: Callable[[int, Sequence[ev.Event]], None]) -> None:
+        """Calls a function with the last sequence number and the events of every step."""
+        self._listeners.append(listener)
+
+    @property
+    def idle(self) -> bool:
+        """Whether nothing runs and no timer is set."""
+        return not self._running and self._timer is None
+
+    async def settle(self) -> None:
+        """Waits until nothing runs any more; timers may still be set."""
+        while self._running:
+            await asyncio.wait([task for task, _ in self._running.values()])
+
+    async def close(self) -> None:
+        """Breaks off everything that runs, without a report: as a crash would."""
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        tasks = [task for task, _ in self._running.values()]
+        self._running.clear()
+        for task in tasks:
+            task.cancel()
+        await asyncio.gather(*tasks, return_exceptions=True)
+
+    # Doing
+
+    def _do(self, decide: Callable[[float], Step]) -> None:
+        if self._failure is not None:
+            raise self._failure
+        step = decide(self.clock.now())
+        if step.events:
+            self._write(step)
+        for command in step.commands:
+            self._carry_out(command)
+        self._set_timer()
+
+    def _write(self, step: Step) -> None:
+        """Writes before anything is done; fully synced where something may move."""
+        entries = [Entry(event.at, type(event).__name__, encode(event)) for event in step.events]
+        moves = any(
+            isinstance(command, Start) and not command.action.idempotent
+            for command in step.commands
+        )
+        try:
+            last = self.journal.append(entries, durable=moves)
+            self._unsnapped += len(entries)
+            if self._unsnapped >= SNAPSHOT_EVERY:
+                self.journal.save_snapshot(last, freeze(self.engine.state))
+                self._unsnapped = 0
+        except JournalError as error:
+            # What is not written must not be done; the engine knows more than the journal now.
+            self._failure = error
+            raise
+        for listener in self._listeners:
+            listener(last, step.events)
+
+    def _carry_out(self, command: Command) -> None:
+        match command:
+            case Start(attempt, action, args):
+                self._begin(attempt, action, args, self._primitives[action.name])
+            case Probe(attempt, action, args):
+                self._begin(attempt, action, args, self._probes[str(action.probe)], probing=True)
+            case Stop(attempt, policy, reason):
+                task, context = self._running[attempt]
+                if policy is not Cancel.NEVER:
+                    context.stop_reason = reason
+                if policy is Cancel.IMMEDIATE:
+                    task.cancel()
+
+    def _begin(
+        self,
+        attempt: int,
+        action: Action,
+        args: tuple[str, ...],
+        function: Primitive,
+        *,
+        probing: bool = False,
+    ) -> None:
+        names = (param.name for param in action.params)
+        facts = MappingProxyType(self.engine.state.facts)
+        context = Context(attempt, action, dict(zip(names, args, strict=True)), facts)
+        task = asyncio.get_running_loop().create_task(self._run(context, function, probing=probing))
+        self._running[attempt] = (task, context)
+
+    async def _run(self, context: Context, function: Primitive, *, probing: bool) -> None:
+        try:
+            report = await function(context)
+        except Stopped as stop:
+            report = Report(outcome=Outcome.CANCELLED, reason=str(stop))
+        except asyncio.CancelledError:
+            if context.stop_reason is None:
+                raise  # the runtime itself is closing: nothing is known, nothing is reported
+            report = Report(outcome=Outcome.CANCELLED, reason=context.stop_reason)
+        except Exception as error:  # noqa: BLE001 - whatever a primitive raises, it has failed
+            reason = f"{type(error).__name__}: {error}"
+            report = Report(outcome=Outcome.FAILED, reason=reason)
+        if not isinstance(report, Report):
+            report = Report(outcome=Outcome.FAILED, reason=f"returned {report!r}, not a Report")
+        if probing and report.outcome is Outcome.DONE:
+            report = Report(report.facts, Outcome.PROBED, report.reason)
+        elif probing:
+            report = Report((), Outcome.UNKNOWN, report.reason)
+        if self._running.pop(context.attempt, None) is not None and self._failure is None:
+            self._do(lambda at: self.engine.report(context.attempt, report, at))
+
+    def _set_timer(self) -> None:
+        due = self.engine.state.next_timer()
+        if self._timer is not None:
+            self._timer.cancel()
+            self._timer = None
+        if due is not None:
+            delay = max(0.0, due - self.clock.now())
+            self._timer = asyncio.get_running_loop().call_later(delay, self._tick)
+
+    def _tick(self) -> None:
+        self._timer = None
+        self._do(self.engine.tick)
+
+    def _check_bindings(self) -> None:
+        actions = [s for s in self.engine.repository.schemata.values() if isinstance(s, Action)]
+        problems = [
+            Problem(
+                action.name,
+                "no primitive is bound to this action",
+                exists=did_you_mean(action.name, self._primitives),
+            )
+            for action in actions
+            if action.name not in self._primitives
+        ]
+        problems += [
+            Problem(
+                action.name,
+                f"no probe is called {action.probe!r}",
+                exists=did_you_mean(action.probe, self._probes),
+            )
+            for action in actions
+            if action.probe is not None and action.probe not in self._probes
+        ]
+        if problems:
+            raise TaskError("primitives", problems)

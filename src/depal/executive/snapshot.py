@@ -1,0 +1,99 @@
+"""The state as text, so that a restart need not fold the whole journal."""
+
+import json
+from typing import Any
+
+from depal.errors import JournalError
+from depal.executive import events as ev
+from depal.executive.emphasis import EmphasisWeights
+from depal.executive.nodes import Attempt, LiveNode
+from depal.executive.schema import Repository
+from depal.executive.state import State
+
+
+def freeze(state: State) -> str:
+    """The state as canonical JSON; `thaw` gives it back."""
+    body = {
+        "digest": state.repository.digest,
+        "now": state.now,
+        "held": state.held,
+        "next_tree": state.next_tree,
+        "next_attempt": state.next_attempt,
+        "facts": state.facts,
+        "trees": [
+            {
+                "number": tree.number,
+                "schema": tree.root.node.schema.name,
+                "args": tree.root.node.args,
+                "priority": tree.priority,
+                "digest": tree.digest,
+                "withdrawn": tree.withdrawn,
+                "nodes": [
+                    [n.node.index, n.failures, n.retry_at, n.faulted, n.waiting_since]
+                    for n in tree.nodes
+                    if n.failures or n.retry_at or n.faulted or state.waiting.waits(n)
+                ],
+            }
+            for tree in state.trees.values()
+        ],
+        "attempts": [
+            [a.number, *a.node.place, a.started, a.deadline, a.cancel, a.in_doubt]
+            for a in state.attempts.values()
+        ],
+        "keepers": [[name, *node.place] for name, node in state.holdings.kept()],
+        "since": state.spans_since(),
+    }
+    return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
+
+
+def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
+    """The state that a snapshot holds.
+
+    Raises:
+        JournalError: it was made with other task files, or by another version.
+    """
+    try:
+        body: dict[str, Any] = json.loads(text)
+        if body["digest"] != repository.digest:
+            message = (
+                f"the snapshot was made with other task files ({body['digest']}, now "
+                f"{repository.digest}); expected the files that the journal was written with"
+            )
+            raise JournalError(message)
+        state = State(repository, weights)
+        state.now = body["now"]
+        state.facts.update(body["facts"])
+        state.preset_since(body["since"])
+        for tree in body["trees"]:
+            _plant(state, tree)
+        for number, tree, node, started, deadline, cancel, in_doubt in body["attempts"]:
+            at = state.trees[tree].nodes[node]
+            state.adopt(Attempt(number, at, started, deadline, cancel, in_doubt))
+        for name, tree, node in body["keepers"]:
+            state.holdings.keep(name, state.trees[tree].nodes[node])
+        state.held, state.next_tree = body["held"], body["next_tree"]
+        state.next_attempt = body["next_attempt"]
+        state.touched.clear()
+    except (ValueError, KeyError, TypeError, IndexError) as error:
+        message = f"the snapshot is of another version: {type(error).__name__}: {error}"
+        raise JournalError(message) from error
+    return state
+
+
+def _plant(state: State, tree: dict[str, Any]) -> None:
+    state.apply(
+        ev.Allocated(
+            state.now,
+            tree["number"],
+            tree["schema"],
+            tuple(tree["args"]),
+            tree["priority"],
+            tree["digest"],
+        )
+    )
+    planted = state.trees[tree["number"]]
+    for index, failures, retry_at, faulted, since in tree["nodes"]:
+        node: LiveNode = planted.nodes[index]
+        state.recall(node, failures, retry_at, since, faulted=faulted)
+    if tree["withdrawn"] is not None:
+        state.apply(ev.Withdrawn(state.now, planted.number, tree["withdrawn"]))
