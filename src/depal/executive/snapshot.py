@@ -74,6 +74,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         state.held, state.next_tree = body["held"], body["next_tree"]
         state.next_attempt = body["next_attempt"]
         state.touched.clear()
+        state.preset_since({})
     except (ValueError, KeyError, TypeError, IndexError) as error:
         message = f"the snapshot is of another version: {type(error).__name__}: {error}"
         raise JournalError(message) from error

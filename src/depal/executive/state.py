@@ -340,7 +340,7 @@ class State:
             self._span_count += 1
             span = Span(f"for:{self._span_count}", condition.seconds, part, watches)
             self._spans[named] = span
-            since = self._preset.get(_span_name(*named))
+            since = self._preset.pop(_span_name(*named), None)
             if since is not None:
                 span.since = since
                 self._set_timer(since + span.seconds, span)
