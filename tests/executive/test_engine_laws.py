@@ -10,7 +10,6 @@ from worlds import STORE, effect
 
 from depal.errors import TaskError
 from depal.executive import events as ev
-from depal.executive.conditions import Lasting
 from depal.executive.engine import Call, Engine, Report, Step, restored
 from depal.executive.events import Outcome, decode, encode
 from depal.executive.language import parse
@@ -332,8 +331,7 @@ def test_a_time_condition_holds_after_its_time_without_a_break() -> None:
     assert not engine.state.attempts
     step = engine.tick(3.5)
     assert [type(event).__name__ for event in step.events] == ["Ticked", "Started"]
-    timed = [c for c in engine.state._spans if isinstance(c[0], Lasting)]  # noqa: SLF001
-    assert len(timed) == 1
+    assert list(engine.state.spans.since().values()) == [1.5]
 
 
 @pytest.mark.parametrize(

@@ -65,7 +65,7 @@ def arbitrate(
 
 def _candidates(waiting: Waiting, holdings: Holdings, weights: EmphasisWeights) -> list[LiveNode]:
     """The first of every claim, and everybody inside a keeper; best first, in a total order."""
-    found = waiting.firsts()
+    found = waiting.firsts(holdings.closed())
     for keeper in holdings.keepers():
         found += [
             (-rank(node, weights), node.place, node)

@@ -4,7 +4,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from depal.executive.conditions import (
-    COMPARISONS,
     AllOf,
     Always,
     AnyOf,
@@ -19,7 +18,6 @@ from depal.executive.conditions import (
     Not,
     Value,
     compared,
-    key_of,
 )
 
 Test = Callable[[], bool]
@@ -60,78 +58,128 @@ def always() -> bool:
     return True
 
 
-def compiled(
-    condition: Condition, binding: Binding, facts: dict[Key, Value], span_of: SpanOf
-) -> tuple[Test, tuple[Watch, ...]]:
-    """A condition as a function of the facts as they are when it is called.
+Grounded = tuple[Test, tuple[Watch, ...]]
+"""A condition as a function of the facts as they are when it is called, and what it waits for."""
 
-    Args:
-        condition: as written.
-        binding: what its parameters stand for.
-        facts: the engine's facts; read at every call.
+Staged = Callable[[Binding], Grounded]
+"""A condition whose structure has been read; a binding grounds it."""
+
+
+class Compiler:
+    """Reads each condition once and grounds it as often as it is needed.
+
+    Attributes:
+        facts: the engine's facts; grounded conditions read them at every call.
         span_of: where time conditions are kept.
-
-    Returns:
-        The function, and everything whose change can change its value.
     """
-    get = facts.get
-    match condition:
-        case Always():
-            return always, ()
-        case Holds(fact):
-            key = key_of(fact, binding)
+
+    def __init__(self, facts: dict[Key, Value], span_of: SpanOf) -> None:
+        """Nothing has been read yet."""
+        self.facts = facts
+        self.span_of = span_of
+        self._staged: dict[int, tuple[Condition, Staged]] = {}
+
+    def ground(self, condition: Condition, binding: Binding) -> Grounded:
+        """The condition for one binding."""
+        known = self._staged.get(id(condition))
+        if known is None:
+            # The condition is kept beside its reading, so that its id stays its own.
+            known = (condition, self._read(condition))
+            self._staged[id(condition)] = known
+        return known[1](binding)
+
+    def _read(self, condition: Condition) -> Staged:
+        match condition:
+            case Always():
+                return lambda _: (always, ())
+            case Holds(fact):
+                return self._holds(fact)
+            case Compare():
+                return self._comparison(condition)
+            case Not(part):
+                return self._negation(self._read(part))
+            case AllOf(parts) | AnyOf(parts):
+                return _junction(
+                    [self._read(part) for part in parts], every=isinstance(condition, AllOf)
+                )
+            case Lasting():
+                return self._lasting(condition)
+
+    def _holds(self, fact: FactRef) -> Staged:
+        get, key_for = self.facts.get, _key(fact)
+
+        def ground(binding: Binding) -> Grounded:
+            key = key_for(binding)
 
             def is_set() -> bool:
                 value = get(key)
                 return value is not None and value is not False
 
             return is_set, (key,)
-        case Compare():
-            return _comparison(condition, binding, facts)
-        case Not(part):
-            inner, watches = compiled(part, binding, facts, span_of)
+
+        return ground
+
+    def _negation(self, part: Staged) -> Staged:
+        def ground(binding: Binding) -> Grounded:
+            inner, watches = part(binding)
             return (lambda: not inner()), watches
-        case AllOf(parts) | AnyOf(parts):
-            pairs = [compiled(part, binding, facts, span_of) for part in parts]
-            watched = tuple(watch for _, watches in pairs for watch in watches)
-            return _joined([test for test, _ in pairs], every=isinstance(condition, AllOf)), watched
-        case Lasting():
-            span = span_of(condition, binding)
+
+        return ground
+
+    def _lasting(self, condition: Lasting) -> Staged:
+        def ground(binding: Binding) -> Grounded:
+            span = self.span_of(condition, binding)
             return (lambda: span.value), (span.key,)
 
+        return ground
 
-def _joined(tests: list[Test], *, every: bool) -> Test:
-    first, second, *more = tests
-    if more:
-        return (
-            (lambda: all(test() for test in tests))
-            if every
-            else (lambda: any(test() for test in tests))
-        )
-    return (lambda: first() and second()) if every else (lambda: first() or second())
+    def _comparison(self, condition: Compare) -> Staged:
+        get, op, other = self.facts.get, condition.op, condition.other
+        key_for = _key(condition.fact)
+        if isinstance(other, FactRef):
+            other_key_for = _key(other)
+
+            def with_fact(binding: Binding) -> Grounded:
+                key, other_key = key_for(binding), other_key_for(binding)
+                return (lambda: compared(get(key), op, get(other_key))), (key, other_key)
+
+            return with_fact
+
+        def with_value(binding: Binding) -> Grounded:
+            key = key_for(binding)
+            right: Value = other.value if isinstance(other, Literal) else binding[other.name]
+            if op == "=":
+                return (lambda: get(key) == right), ((key, right),)
+            if op == "!=":
+                return (lambda: get(key) != right), ((key, right),)
+            return (lambda: compared(get(key), op, right)), (key,)
+
+        return with_value
 
 
-def _comparison(
-    condition: Compare, binding: Binding, facts: dict[Key, Value]
-) -> tuple[Test, tuple[Watch, ...]]:
-    get, op, key = facts.get, condition.op, key_of(condition.fact, binding)
-    other = condition.other
-    if isinstance(other, FactRef):
-        other_key = key_of(other, binding)
-        return (lambda: compared(get(key), op, get(other_key))), (key, other_key)
-    right: Value = other.value if isinstance(other, Literal) else binding[other.name]
-    if op == "=":
-        return (lambda: get(key) == right), ((key, right),)
-    if op == "!=":
-        return (lambda: get(key) != right), ((key, right),)
-    compare = COMPARISONS[op]
+def _key(fact: FactRef) -> Callable[[Binding], Key]:
+    subject, suffix = fact.subject, f".{fact.attribute}"
+    if isinstance(subject, Literal):
+        fixed = f"{subject.value}{suffix}"
+        return lambda _: fixed
+    name = subject.name
+    return lambda binding: binding[name] + suffix
 
-    def ordered() -> bool:
-        left = get(key)
-        return (
-            isinstance(left, int | float)
-            and isinstance(right, int | float)
-            and compare(left, right)
-        )
 
-    return ordered, (key,)
+def _junction(parts: list[Staged], *, every: bool) -> Staged:
+    def two(binding: Binding) -> Grounded:
+        (first, first_watches), (second, second_watches) = (part(binding) for part in parts)
+        watches = first_watches + second_watches
+        if every:
+            return (lambda: first() and second()), watches
+        return (lambda: first() or second()), watches
+
+    def many(binding: Binding) -> Grounded:
+        pairs = [part(binding) for part in parts]
+        tests = [test for test, _ in pairs]
+        watches = tuple(watch for _, watched in pairs for watch in watched)
+        if every:
+            return (lambda: all(test() for test in tests)), watches
+        return (lambda: any(test() for test in tests)), watches
+
+    return two if len(parts) == 2 else many  # noqa: PLR2004 - a pair

@@ -28,6 +28,14 @@ class Holdings:
         """Every task that keeps something."""
         return [node for nodes in self._keepers.values() for node in nodes]
 
+    def closed(self) -> list[str]:
+        """The resources of which keepers have every unit: nobody outside gets one."""
+        return [
+            name
+            for name, keepers in self._keepers.items()
+            if keepers and len(keepers) >= self._capacity[name]
+        ]
+
     def kept(self) -> Iterable[tuple[str, LiveNode]]:
         """Every kept resource with its keeper."""
         return ((name, node) for name, nodes in self._keepers.items() for node in nodes)

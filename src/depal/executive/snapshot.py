@@ -20,6 +20,7 @@ def freeze(state: State) -> str:
         "next_tree": state.next_tree,
         "next_attempt": state.next_attempt,
         "facts": state.facts,
+        "changed_at": state.changed_at,
         "trees": [
             {
                 "number": tree.number,
@@ -41,7 +42,7 @@ def freeze(state: State) -> str:
             for a in state.attempts.values()
         ],
         "keepers": [[name, *node.place] for name, node in state.holdings.kept()],
-        "since": state.spans_since(),
+        "since": state.spans.since(),
     }
     return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
 
@@ -63,7 +64,8 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         state = State(repository, weights)
         state.now = body["now"]
         state.facts.update(body["facts"])
-        state.preset_since(body["since"])
+        state.changed_at.update(body["changed_at"])
+        state.spans.preset(body["since"])
         for tree in body["trees"]:
             _plant(state, tree)
         for number, tree, node, started, deadline, cancel, in_doubt in body["attempts"]:
@@ -74,7 +76,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         state.held, state.next_tree = body["held"], body["next_tree"]
         state.next_attempt = body["next_attempt"]
         state.touched.clear()
-        state.preset_since({})
+        state.spans.preset({})
     except (ValueError, KeyError, TypeError, IndexError) as error:
         message = f"the snapshot is of another version: {type(error).__name__}: {error}"
         raise JournalError(message) from error

@@ -4,17 +4,18 @@
 a restart that folds the journal agree, event by event.
 """
 
-import heapq
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from depal.executive import events as ev
-from depal.executive.compiled import Span, Watch, compiled
+from depal.executive.compiled import Compiler, Span, Watch, always
 from depal.executive.conditions import Binding, Key, Lasting, Value, lasting_of
 from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.events import Change, Outcome
 from depal.executive.holdings import Holdings
-from depal.executive.nodes import Attempt, LiveNode, LiveTree, SpanName
+from depal.executive.nodes import Attempt, LiveNode, LiveTree
 from depal.executive.schema import Cancel, Repository, Schema
+from depal.executive.spans import Spans
+from depal.executive.timers import Timers
 from depal.executive.tree import Standing, Tree, ground, sweep
 from depal.executive.waiting import Waiting
 from depal.executive.watching import POST, PRE, Watchers
@@ -33,6 +34,7 @@ class State:
         repository: the schemata.
         weights: of the emphasis.
         facts: what is the case; empty and false facts may be left out.
+        changed_at: since when each fact is as it is [s].
         trees: what is allocated, by number.
         attempts: what runs, by number.
         waiting: what may run and does not.
@@ -43,6 +45,7 @@ class State:
         next_attempt: the number of the next attempt.
         orphans: running attempts whose gate has closed and that were not asked to stop.
         overdue: running attempts whose time-out has passed and that were not asked to stop.
+        spans: the time conditions of the trees.
         touched: trees of which something has changed since somebody took them.
     """
 
@@ -51,6 +54,7 @@ class State:
         self.repository = repository
         self.weights = weights
         self.facts: dict[Key, Value] = {}
+        self.changed_at: dict[Key, float] = {}
         self.trees: dict[int, LiveTree] = {}
         self.attempts: dict[int, Attempt] = {}
         self.waiting = Waiting()
@@ -63,13 +67,13 @@ class State:
         self.overdue: dict[int, Attempt] = {}
         self.touched: dict[int, None] = {}
         self._watchers = Watchers()
-        self._spans: dict[SpanName, Span] = {}
-        self._span_count = 0
         self._faulted: dict[Key, list[LiveNode]] = {}
-        self._timers: list[tuple[float, int, object]] = []
-        self._timer_count = 0
-        self._preset: dict[str, float] = {}
+        self._timers: Timers[Span | LiveNode | Attempt] = Timers(self._is_stale)
         self._timed_schemata: dict[str, tuple[Lasting, ...]] = {}
+        self._fold = self._folders()
+        self.spans = Spans()
+        self._compiler = Compiler(self.facts, self.spans.of)
+        self.spans.compiler = self._compiler
         self._own_facts = {
             declaration.attribute
             for declaration in repository.facts.values()
@@ -85,62 +89,45 @@ class State:
 
     def has_lasted(self, condition: Lasting, binding: Binding) -> bool:
         """Whether a time condition's part has held for long enough."""
-        span = self._spans.get((condition, frozenset(binding.items())))
+        span = self.spans.find(condition, binding)
         return span is not None and span.value
 
     def next_timer(self) -> float | None:
         """When the next `Ticked` is due [s]; None where nothing waits for time."""
-        while self._timers and self._is_stale(self._timers[0][0], self._timers[0][2]):
-            heapq.heappop(self._timers)
-        return self._timers[0][0] if self._timers else None
+        return self._timers.next()
 
     # Changing
 
-    def apply(self, event: ev.Event) -> None:  # noqa: C901, PLR0912 - one case a kind of event
+    def apply(self, event: ev.Event) -> None:
         """Folds one event in."""
         self.now = event.at
-        match event:
-            case ev.Changed(facts=facts):
-                self._change(facts)
-            case ev.Started():
-                self._start(event)
-            case ev.Ended():
-                self._end(event)
-            case ev.Allocated():
-                self._allocate(event)
-            case ev.CancelAsked():
-                self._ask_to_stop(event)
-            case ev.Prioritised(tree=tree, priority=priority):
-                self._prioritise(self.trees[tree], priority)
-            case ev.Withdrawn(tree=tree, reason=reason):
-                self.trees[tree].withdrawn = reason
-                self._regate(self.trees[tree].root)
-            case ev.Archived(tree=tree):
-                self._archive(self.trees[tree])
-            case ev.Retried(tree=tree, node=node):
-                self._forgive(self.trees[tree].nodes[node])
-            case ev.Ticked():
-                self._tick()
-            case ev.ModeChanged(held=held):
-                self.held = held
-            case ev.Restarted():
-                self.held = True
-                for attempt in self.attempts.values():
-                    self._doubt(attempt)
+        self._fold[type(event)](event)
 
-    # Recalling a snapshot
-
-    def spans_since(self) -> dict[str, float]:
-        """Since when the part of each time condition holds, by its condition and things."""
+    def _folders(self) -> dict[type[ev.Event], Callable[..., None]]:
         return {
-            _span_name(*named): span.since
-            for named, span in self._spans.items()
-            if span.since is not None
+            ev.Changed: lambda event: self._change(event.facts),
+            ev.Started: self._start,
+            ev.Ended: self._end,
+            ev.Allocated: self._allocate,
+            ev.CancelAsked: self._ask_to_stop,
+            ev.Prioritised: self._prioritise,
+            ev.Withdrawn: self._withdraw,
+            ev.Archived: self._archive,
+            ev.Retried: lambda event: self._forgive(self.trees[event.tree].nodes[event.node]),
+            ev.Ticked: self._tick,
+            ev.ModeChanged: self._set_mode,
+            ev.Restarted: self._restart,
         }
 
-    def preset_since(self, since: dict[str, float]) -> None:
-        """What `spans_since` gave, for the time conditions of trees to come."""
-        self._preset = since
+    def _set_mode(self, event: ev.ModeChanged) -> None:
+        self.held = event.held
+
+    def _restart(self, _: ev.Restarted) -> None:
+        self.held = True
+        for attempt in self.attempts.values():
+            self._doubt(attempt)
+
+    # Recalling a snapshot
 
     def recall(
         self, node: LiveNode, failures: int, retry_at: float, since: float, *, faulted: bool
@@ -165,7 +152,7 @@ class State:
         node.tree.running[attempt.number] = node
         self.holdings.use(attempt.number, node)
         if attempt.deadline is not None:
-            self._set_timer(attempt.deadline, attempt)
+            self._timers.set(attempt.deadline, attempt)
 
     # Trees
 
@@ -179,29 +166,35 @@ class State:
             if parent is not None:
                 parent.children.append(live)
             for lasting in self._timed(node.schema):
-                self._use_span(tree, lasting, node.binding)
+                self._measure(self.spans.use(tree, lasting, node.binding))
             for lasting in lasting_of(node.edge):
-                self._use_span(tree, lasting, node.edge_binding)
+                self._measure(self.spans.use(tree, lasting, node.edge_binding))
         self.trees[event.tree] = tree
         self.next_tree = event.tree + 1
         self.touched[event.tree] = None
         self._wake(tree.root)
 
-    def _archive(self, tree: LiveTree) -> None:
+    def _withdraw(self, event: ev.Withdrawn) -> None:
+        tree = self.trees[event.tree]
+        tree.withdrawn = event.reason
+        self.touched[tree.number] = None
+        self._regate(tree.root)
+
+    def _archive(self, event: ev.Archived) -> None:
+        tree = self.trees[event.tree]
         self._sleep(tree.root)
         self.touched[tree.number] = None
-        for named in tree.spans:
-            self._drop_span(named)
+        self.spans.release(tree)
         for nodes in self._faulted.values():
             nodes[:] = [node for node in nodes if node.tree is not tree]
         del self.trees[tree.number]
 
-    def _prioritise(self, tree: LiveTree, priority: float) -> None:
-        tree.priority = priority
+    def _prioritise(self, event: ev.Prioritised) -> None:
+        tree = self.trees[event.tree]
+        tree.priority = event.priority
         self.touched[tree.number] = None
-        for node in tree.nodes:
-            if self.waiting.waits(node):
-                self.waiting.put(node, rank(node, self.weights))
+        for node in self.waiting.of_tree(tree.number):
+            self.waiting.put(node, rank(node, self.weights))
 
     def _timed(self, schema: Schema) -> tuple[Lasting, ...]:
         """The time conditions of a schema itself."""
@@ -231,12 +224,14 @@ class State:
             self._closed(node)
 
     def _compile(self, node: LiveNode) -> None:
-        plain = node.node
-        binding = plain.binding
-        edge, edge_watches = compiled(plain.edge, plain.edge_binding, self.facts, self._span_of)
-        own, own_watches = compiled(plain.schema.when, binding, self.facts, self._span_of)
-        node.pre = edge if not own_watches else lambda: edge() and own()
-        node.post, post_watches = compiled(plain.schema.until, binding, self.facts, self._span_of)
+        plain, ground = node.node, self._compiler.ground
+        edge, edge_watches = ground(plain.edge, plain.edge_binding)
+        own, own_watches = ground(plain.schema.when, plain.binding)
+        if own is always:
+            node.pre = edge
+        else:
+            node.pre = own if edge is always else lambda: edge() and own()
+        node.post, post_watches = ground(plain.schema.until, plain.binding)
         node.watches = (edge_watches + own_watches, post_watches)
 
     def _regate(self, node: LiveNode) -> None:
@@ -279,7 +274,7 @@ class State:
         if node.attempt is not None or node.faulted:
             return
         if node.retry_at > self.now:
-            self._set_timer(node.retry_at, node)
+            self._timers.set(node.retry_at, node)
             return
         node.waiting_since = self.now
         self.waiting.put(node, rank(node, self.weights))
@@ -295,6 +290,7 @@ class State:
             if before == value and type(before) is type(value):
                 continue
             self.facts[key] = value
+            self.changed_at[key] = self.now
             watches[key] = watches[key, before] = watches[key, value] = None
             if value is None and key in self._faulted:
                 cleared.append(key)
@@ -308,7 +304,7 @@ class State:
         todo: list[Watch] = list(watches)
         while todo:
             # A time condition may stand inside another: inner ones first, then who waits.
-            spans = self._watchers.spans(todo)
+            spans = self.spans.concerned(todo)
             todo = [span.key for span in spans if self._measure(span)]
             watches.update(dict.fromkeys(todo))
         stirred: dict[tuple[int, int], LiveNode] = {}
@@ -332,34 +328,6 @@ class State:
 
     # Time
 
-    def _span_of(self, condition: Lasting, binding: Binding) -> Span:
-        named = (condition, frozenset(binding.items()))
-        span = self._spans.get(named)
-        if span is None:
-            part, watches = compiled(condition.part, binding, self.facts, self._span_of)
-            self._span_count += 1
-            span = Span(f"for:{self._span_count}", condition.seconds, part, watches)
-            self._spans[named] = span
-            since = self._preset.pop(_span_name(*named), None)
-            if since is not None:
-                span.since = since
-                self._set_timer(since + span.seconds, span)
-            self._watchers.watch_span(span)
-            self._measure(span)
-        return span
-
-    def _use_span(self, tree: LiveTree, condition: Lasting, binding: Binding) -> None:
-        """A tree needs a time condition; it is kept until the last such tree has ended."""
-        self._span_of(condition, binding).users += 1
-        tree.spans.append((condition, frozenset(binding.items())))
-
-    def _drop_span(self, named: SpanName) -> None:
-        span = self._spans[named]
-        span.users -= 1
-        if not span.users:
-            self._watchers.unwatch_span(span)
-            del self._spans[named]
-
     def _measure(self, span: Span) -> bool:
         """Brings a time condition up to date; whether its value has changed."""
         before = span.value
@@ -368,15 +336,12 @@ class State:
         else:
             if span.since is None:
                 span.since = self.now
-                self._set_timer(self.now + span.seconds, span)
             span.value = self.now >= span.since + span.seconds
+            if not span.value:
+                self._timers.set(span.since + span.seconds, span)
         return span.value != before
 
-    def _set_timer(self, at: float, what: object) -> None:
-        self._timer_count += 1
-        heapq.heappush(self._timers, (at, self._timer_count, what))
-
-    def _is_stale(self, at: float, what: object) -> bool:
+    def _is_stale(self, at: float, what: Span | LiveNode | Attempt) -> bool:
         """Whether a timer waits for something that has gone."""
         if isinstance(what, Span):
             if not what.users or what.since is None or what.value:
@@ -385,25 +350,17 @@ class State:
         if isinstance(what, LiveNode):
             idle = what.gate and what.attempt is None and not what.faulted
             return not idle or what.retry_at != at or self.waiting.waits(what)
-        return not (
-            isinstance(what, Attempt)
-            and self.attempts.get(what.number) is what
-            and what.deadline == at
-        )
+        return self.attempts.get(what.number) is not what or what.deadline != at
 
-    def _tick(self) -> None:
+    def _tick(self, _: ev.Ticked) -> None:
         changed: dict[Watch, None] = {}
-        while self._timers and self._timers[0][0] <= self.now:
-            at, _, what = heapq.heappop(self._timers)
-            if self._is_stale(at, what):
-                continue
-            if isinstance(what, Span):
-                if self._measure(what):
-                    changed[what.key] = None
-            elif isinstance(what, LiveNode):
+        for what in self._timers.due(self.now):
+            if isinstance(what, LiveNode):
                 self._wait(what)
             elif isinstance(what, Attempt):
                 self._late(what)
+            elif self._measure(what):
+                changed[what.key] = None
         if changed:
             self._settle(changed)
 
@@ -415,7 +372,7 @@ class State:
 
     def _set_deadline(self, attempt: Attempt, at: float) -> None:
         attempt.deadline = at
-        self._set_timer(at, attempt)
+        self._timers.set(at, attempt)
 
     def _late(self, attempt: Attempt) -> None:
         attempt.deadline = None
@@ -497,7 +454,3 @@ class State:
         key = self._own_key(node, attribute)
         if attribute in self._own_facts and self.facts.get(key) != value:
             self._change(((key, value),))
-
-
-def _span_name(condition: Lasting, things: frozenset[tuple[str, str]]) -> str:
-    return f"{condition!r} {sorted(things)!r}"

@@ -1,6 +1,7 @@
 """The nodes that may run and do not, best first, by the resources that they claim."""
 
 import heapq
+from collections.abc import Container
 
 from depal.executive.nodes import LiveNode
 
@@ -48,10 +49,12 @@ class Waiting:
         """Whether anybody waits."""
         return bool(self._by_tree)
 
-    def firsts(self) -> list[tuple[float, tuple[int, int], LiveNode]]:
-        """The best of every claim: minus its rank, its place, and itself."""
+    def firsts(self, closed: Container[str]) -> list[tuple[float, tuple[int, int], LiveNode]]:
+        """The best of every claim without a closed resource: minus its rank, its place, itself."""
         found = []
-        for queue in self._queues.values():
+        for claim, queue in self._queues.items():
+            if any(name in closed for name in claim):
+                continue
             while queue and queue[0][2] != queue[0][3].ticket:
                 heapq.heappop(queue)
             if queue:

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterable
 
-from depal.executive.compiled import Span, Watch
+from depal.executive.compiled import Watch
 from depal.executive.nodes import LiveNode
 
 Token = tuple[int, int, int]
-"""Tree, node and side of a watched condition; side 2 is a time condition."""
+"""Tree, node and side of a watched condition."""
 
-PRE, POST, SPAN = 0, 1, 2
+PRE, POST = 0, 1
 
 
 class Watchers:
@@ -17,7 +17,6 @@ class Watchers:
     def __init__(self) -> None:
         """Nobody waits."""
         self._nodes: dict[Watch, dict[Token, LiveNode]] = {}
-        self._spans: dict[Watch, dict[str, Span]] = {}
 
     def watch(self, node: LiveNode) -> None:
         """A node's conditions are to be told of changes."""
@@ -37,27 +36,16 @@ class Watchers:
                 if not waiting:
                     self._nodes.pop(watch, None)
 
-    def watch_span(self, span: Span) -> None:
-        """A time condition is to be told of changes of its part."""
-        for watch in span.watches:
-            self._spans.setdefault(watch, {})[span.key] = span
-
-    def unwatch_span(self, span: Span) -> None:
-        """A time condition is no longer there."""
-        for watch in span.watches:
-            waiting = self._spans.get(watch, {})
-            waiting.pop(span.key, None)
-            if not waiting:
-                self._spans.pop(watch, None)
-
-    def spans(self, watches: Iterable[Watch]) -> list[Span]:
-        """The time conditions that changes concern, in the order of their keys."""
-        found = {key: span for watch in watches for key, span in self._spans.get(watch, {}).items()}
-        return [found[key] for key in sorted(found)]
-
     def nodes(self, watches: Iterable[Watch]) -> list[tuple[Token, LiveNode]]:
         """The nodes' conditions that changes concern, in the order of trees and nodes."""
         found: dict[Token, LiveNode] = {}
+        get = self._nodes.get
         for watch in watches:
-            found.update(self._nodes.get(watch, ()))
-        return [(token, found[token]) for token in sorted(found)]
+            waiting = get(watch)
+            if waiting:
+                found.update(waiting)
+        return sorted(found.items(), key=_token)
+
+
+def _token(entry: tuple[Token, LiveNode]) -> Token:
+    return entry[0]

@@ -1,0 +1,43 @@
+"""What waits for time, soonest first."""
+
+import heapq
+from collections.abc import Callable, Iterator
+from typing import Generic, TypeVar
+
+T = TypeVar("T")
+
+
+class Timers(Generic[T]):
+    """A queue of things that wait for a moment.
+
+    A timer is never taken back: one that has lost its meaning is dropped when it comes up.
+    """
+
+    def __init__(self, is_stale: Callable[[float, T], bool]) -> None:
+        """Nothing waits.
+
+        Args:
+            is_stale: whether a timer, by its moment [s] and its thing, has lost its meaning.
+        """
+        self._is_stale = is_stale
+        self._queue: list[tuple[float, int, T]] = []
+        self._count = 0
+
+    def set(self, at: float, what: T) -> None:
+        """Something waits until `at` [s]."""
+        self._count += 1
+        heapq.heappush(self._queue, (at, self._count, what))
+
+    def next(self) -> float | None:
+        """The moment of the soonest [s], None where nothing waits."""
+        queue = self._queue
+        while queue and self._is_stale(queue[0][0], queue[0][2]):
+            heapq.heappop(queue)
+        return queue[0][0] if queue else None
+
+    def due(self, now: float) -> Iterator[T]:
+        """Takes out everything whose moment has come, soonest first."""
+        while self._queue and self._queue[0][0] <= now:
+            at, _, what = heapq.heappop(self._queue)
+            if not self._is_stale(at, what):
+                yield what
