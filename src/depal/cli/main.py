@@ -13,7 +13,9 @@ from depal import __version__
 from depal.cli.bench import bench
 from depal.cli.delivery import delivery
 from depal.cli.output import console
+from depal.cli.replay import replay
 from depal.cli.study import study
+from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, SettingError, did_you_mean
 
 app = typer.Typer(
@@ -26,6 +28,8 @@ app = typer.Typer(
 app.add_typer(study, name="study")
 app.add_typer(bench, name="bench")
 app.add_typer(delivery, name="delivery")
+app.add_typer(tasks, name="tasks")
+app.command()(replay)
 
 
 def main() -> None:

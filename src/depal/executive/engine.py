@@ -181,7 +181,7 @@ class Engine:
                 reason = "interrupted by a restart, and nothing can tell what it did"
                 unknown.append(ev.Ended(at, attempt.number, Outcome.UNKNOWN, (), reason))
         self._apply(unknown)
-        followed, more = self._consequences(at)
+        followed, more = self.consequences(at)
         return Step((*events, *unknown, *followed), (*commands, *more))
 
     # How an input becomes a step
@@ -190,7 +190,7 @@ class Engine:
         # What was due before comes first, whether or not somebody ticked.
         happened = [ev.Ticked(at), *events] if self._is_due(at) else events
         self._apply(happened)
-        followed, commands = self._consequences(at)
+        followed, commands = self.consequences(at)
         return Step((*happened, *followed), tuple(commands))
 
     def _is_due(self, at: float) -> bool:
@@ -201,7 +201,7 @@ class Engine:
         for event in events:
             self.state.apply(event)
 
-    def _consequences(self, at: float) -> tuple[list[ev.Event], list[Command]]:
+    def consequences(self, at: float) -> tuple[list[ev.Event], list[Command]]:
         """Everything that follows, until nothing more does."""
         events: list[ev.Event] = []
         commands: list[Command] = []

@@ -1,6 +1,7 @@
 """Planted mistakes, each found by its kind; the shipped tasks have none."""
 
 import time
+from dataclasses import replace
 from importlib.resources import files
 from pathlib import Path
 
@@ -8,6 +9,7 @@ import pytest
 
 from depal.executive.checking import Finding, FindingKind, check
 from depal.executive.language import parse, read_tasks
+from depal.executive.schema import Action
 
 STORE = Path(str(files("depal.cell.tasks") / "store.task"))
 CELL = Path(str(files("depal.cell.tasks") / "cell.task"))
@@ -141,9 +143,14 @@ def test_undeclared_resources_are_found() -> None:
 
 
 def test_an_action_that_uses_more_than_there_is_is_found() -> None:
-    """Two arms where there is one."""
-    text = SOUND.replace("until Box.taken uses arm", "until Box.taken uses arm, arm")
-    assert only(text, FindingKind.OVER_CAPACITY).what == "uses arm 2 times; its capacity is 1"
+    """Two arms where there is one; the language has no way to write it, a program has."""
+    repository = parse(SOUND, "test.task")
+    grasp = repository.schemata["grasp"]
+    assert isinstance(grasp, Action)
+    greedy = dict(repository.schemata) | {"grasp": replace(grasp, uses=("arm", "arm"))}
+    findings = check(replace(repository, schemata=greedy))
+    assert [one.kind for one in findings if one.serious] == [FindingKind.OVER_CAPACITY]
+    assert findings[0].what == "uses arm 2 times; its capacity is 1"
 
 
 def test_an_action_that_sets_nothing_of_its_until_is_found() -> None:
@@ -253,7 +260,7 @@ def test_everything_is_found_at_once_and_only_once() -> None:
     kinds = [one.kind for one in findings]
     assert {FindingKind.UNKNOWN_SUBTASK, FindingKind.UNDECLARED_FACT} <= set(kinds)
     assert len(findings) == len(set(findings))
-    assert [one.serious for one in findings] == sorted((one.serious for one in findings))[::-1]
+    assert [one.serious for one in findings] == sorted(one.serious for one in findings)[::-1]
 
 
 @pytest.mark.slow
