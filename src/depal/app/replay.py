@@ -34,9 +34,8 @@ def replay_report(folder: Path, *, every: bool) -> Report:
     """
     recording = Recording.read(folder)
     deviations = list(recording.deviations())
-    table = plain_table(
-        f"{folder}: {len(recording.events)} events", "", "time [s]", "what happened"
-    )
+    title = f"{folder}: {len(recording.events)} events"
+    table = plain_table(title, "", "time [s]", "what happened")
     table.columns[2].justify = "left"
     fields: list[Json] = []
     labels = _labels(recording)
@@ -78,9 +77,8 @@ def tree_at(folder: Path, sequence: int | None, tree: int | None, form: str) -> 
         tree = next(iter(state.trees), None)
     if tree is None or tree not in state.trees:
         exists = did_you_mean(str(tree), map(str, state.trees))
-        message = (
-            f"no tree {tree if tree is not None else ''} stands after event {number}; {exists}"
-        )
+        named = "no tree" if tree is None else f"no tree {tree}"
+        message = f"{named} stands after event {number}; {exists}"
         raise JournalError(message)
     return drawn(state, tree, form, f"after event {number}, {state.now:.1f} s")
 
@@ -110,7 +108,7 @@ def _labels(recording: Recording) -> dict[int, str]:
     return labels
 
 
-def said_of(event: Event, labels: dict[int, str]) -> str:
+def said_of(event: Event, labels: dict[int, str]) -> str:  # noqa: PLR0911 - one a kind
     """An event in words."""
     match event:
         case ev.Allocated(tree=tree, schema=schema, args=args, priority=priority):

@@ -16,7 +16,7 @@ from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.study import study
 from depal.cli.tasks import tasks
-from depal.errors import DepalError, InputError, SettingError, did_you_mean
+from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
 
 app = typer.Typer(
     help="An open depalletizing cell for the back room of a supermarket.",
@@ -36,7 +36,7 @@ def main() -> None:
     """Runs a command; what is wrong with an input is one message and exit status 2."""
     try:
         app()
-    except InputError as error:
+    except (InputError, JournalError) as error:
         _say(error)
         sys.exit(2)
     except DepalError as error:

@@ -217,7 +217,7 @@ class Engine:
             self._stop(attempt, TIMED_OUT, at, events, commands)
         for attempt in list(state.orphans.values()):
             self._stop(attempt, "no longer enabled", at, events, commands)
-        touched = [state.trees[number] for number in state.touched if number in state.trees]
+        touched = [state.trees[number] for number in sorted(state.touched) if number in state.trees]
         state.touched.clear()
         for tree in touched:
             if _has_ended(tree):
