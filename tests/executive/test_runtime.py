@@ -19,7 +19,8 @@ from depal.executive.engine import Call, Engine, Report, restored
 from depal.executive.events import Event, decode
 from depal.executive.journal import Journal, MemoryJournal, SqliteJournal
 from depal.executive.runtime import Context, Runtime
-from depal.executive.snapshot import thaw
+from depal.executive.snapshot import freeze, thaw
+from depal.executive.state import CANCEL_GRACE
 
 
 def events_of(journal: Journal) -> list[Event]:
@@ -179,6 +180,31 @@ def test_a_motion_that_loses_its_gate_is_broken_off_at_its_checkpoint() -> None:
     assert rested == [pytest.approx(0.6)]
 
 
+def test_a_motion_that_does_not_stop_when_asked_raises_a_fault() -> None:
+    """Every cancellation ends within its deadline, or a person is called."""
+    world = World()
+
+    async def deaf(_: Context) -> Report:
+        await asyncio.sleep(3600)
+        return Report()
+
+    world.overrides["kr60_reach"] = deaf
+
+    async def work() -> None:
+        runtime = runtime_of(world)
+        runtime.allocate(Call("store", ("b1",)))
+        await asyncio.sleep(1)
+        runtime.change([("b1.on_floor", True)], "camera")
+        await asyncio.sleep(CANCEL_GRACE - 1)
+        assert not runtime.engine.state.facts.get("b1.fault")
+        await asyncio.sleep(2)
+        assert runtime.engine.state.facts["b1.fault"] == "kr60_reach"
+        assert len(runtime.engine.state.attempts) == 1  # it still has the arm
+        await runtime.close()
+
+    run_simulated(work())
+
+
 def test_an_idle_executive_does_not_wake_up() -> None:
     """No timer is set and nothing is scheduled while all stores wait for a fact."""
 
@@ -293,7 +319,11 @@ def test_a_crash_after_every_single_event_ends_in_the_same_facts() -> None:
         crash_and_restart(0, 0.0, [cut])
 
 
-@settings(max_examples=40)
+CRASHES = int(os.environ.get("DEPAL_CRASHES", "40"))
+"""How many random runs with crashes; `make figures` asks for 10,000."""
+
+
+@settings(max_examples=CRASHES)
 @given(
     st.integers(0, 10**6),
     st.sampled_from([0.0, 0.2, 0.4]),
@@ -322,8 +352,6 @@ def test_a_restart_from_a_snapshot_equals_one_from_the_beginning(tmp_path: Path)
         for record in journal.read(snapshot.sequence):
             engine.state.apply(decode(record.at, record.kind, record.body))
         folded = restored(STORE, events_of(journal))
-        from depal.executive.snapshot import freeze  # noqa: PLC0415 - only here
-
         assert freeze(engine.state) == freeze(folded.state)
 
 

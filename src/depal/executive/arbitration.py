@@ -65,8 +65,8 @@ def arbitrate(
 
 def _candidates(waiting: Waiting, holdings: Holdings, weights: EmphasisWeights) -> list[LiveNode]:
     """The first of every claim, and everybody inside a keeper; best first, in a total order."""
-    found = waiting.firsts(holdings.closed())
-    for keeper in holdings.keepers():
+    found = waiting.firsts(holdings.closed)
+    for keeper in holdings.keepers:
         found += [
             (-rank(node, weights), node.place, node)
             for node in waiting.of_tree(keeper.tree.number)

@@ -213,15 +213,18 @@ class Engine:
     def _tidy(self, at: float, events: list[ev.Event], commands: list[Command]) -> None:
         """Stops what has lost its gate or its time, and archives what has ended."""
         state = self.state
-        for attempt in list(state.overdue.values()):
-            self._stop(attempt, TIMED_OUT, at, events, commands)
-        for attempt in list(state.orphans.values()):
-            self._stop(attempt, "no longer enabled", at, events, commands)
-        touched = [state.trees[number] for number in sorted(state.touched) if number in state.trees]
-        state.touched.clear()
-        for tree in touched:
-            if _has_ended(tree):
-                self._then(ev.Archived(at, tree.number, tree.root.post()), events)
+        if state.overdue or state.orphans:
+            for attempt in list(state.overdue.values()):
+                self._stop(attempt, TIMED_OUT, at, events, commands)
+            for attempt in list(state.orphans.values()):
+                self._stop(attempt, "no longer enabled", at, events, commands)
+        if state.touched:
+            touched = sorted(state.touched)
+            state.touched.clear()
+            for number in touched:
+                tree = state.trees.get(number)
+                if tree is not None and _has_ended(tree):
+                    self._then(ev.Archived(at, number, tree.root.post()), events)
 
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""
@@ -268,7 +271,7 @@ class Engine:
         self, attempt: Attempt, report: Report
     ) -> tuple[tuple[Change, ...], Outcome, str]:
         action, binding = attempt.node.action, attempt.node.node.binding
-        declared = {key_of(fact, binding) for fact in action.sets}
+        declared = [key_of(fact, binding) for fact in action.sets]
         foreign = [key for key, _ in report.facts if key not in declared]
         if foreign:
             reason = f"changed facts that it does not declare: {', '.join(foreign)}"

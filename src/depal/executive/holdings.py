@@ -19,22 +19,22 @@ class Holdings:
         self._capacity = {name: resource.capacity for name, resource in resources.items()}
         self._users: dict[str, dict[int, LiveNode]] = {name: {} for name in resources}
         self._keepers: dict[str, list[LiveNode]] = {name: [] for name in resources}
+        self._all_keepers: list[LiveNode] = []
+        self._closed: set[str] = set()
 
     def users(self, resource: str) -> Mapping[int, LiveNode]:
         """The nodes that use a resource, by attempt."""
         return self._users[resource]
 
+    @property
     def keepers(self) -> list[LiveNode]:
         """Every task that keeps something."""
-        return [node for nodes in self._keepers.values() for node in nodes]
+        return self._all_keepers
 
-    def closed(self) -> list[str]:
+    @property
+    def closed(self) -> set[str]:
         """The resources of which keepers have every unit: nobody outside gets one."""
-        return [
-            name
-            for name, keepers in self._keepers.items()
-            if keepers and len(keepers) >= self._capacity[name]
-        ]
+        return self._closed
 
     def kept(self) -> Iterable[tuple[str, LiveNode]]:
         """Every kept resource with its keeper."""
@@ -63,12 +63,7 @@ class Holdings:
 
     def is_kept_from(self, node: LiveNode, resource: str) -> bool:
         """Whether only keepers stand between a node and a unit: waiting will not be short."""
-        keepers = self._keepers[resource]
-        return (
-            bool(keepers)
-            and len(keepers) >= self._capacity[resource]
-            and self.keeper_above(node, resource) is None
-        )
+        return resource in self._closed and self.keeper_above(node, resource) is None
 
     def use(self, attempt: int, node: LiveNode) -> None:
         """A primitive uses one unit of each resource that it claims."""
@@ -84,13 +79,14 @@ class Holdings:
                 schema = above.node.schema
                 keeps = isinstance(schema, Task) and resource in schema.keeps
                 if keeps and self.keeper_above(node, resource) is None:
-                    self._keepers[resource].append(above)
+                    self.keep(resource, above)
                 above = above.parent
 
     def keep(self, resource: str, node: LiveNode) -> None:
-        """A snapshot says that a task keeps a resource."""
+        """A task keeps a unit of a resource."""
         if node not in self._keepers[resource]:
             self._keepers[resource].append(node)
+            self._recount(resource)
 
     def give_back(self, attempt: int, node: LiveNode) -> None:
         """A primitive has ended."""
@@ -104,3 +100,11 @@ class Holdings:
             for resource in schema.keeps:
                 if node in self._keepers[resource]:
                     self._keepers[resource].remove(node)
+                    self._recount(resource)
+
+    def _recount(self, resource: str) -> None:
+        self._all_keepers = [node for nodes in self._keepers.values() for node in nodes]
+        if len(self._keepers[resource]) >= self._capacity[resource]:
+            self._closed.add(resource)
+        else:
+            self._closed.discard(resource)

@@ -20,6 +20,7 @@ class LiveNode:
 
     Attributes:
         node: what it grounds.
+        action: its schema where it is concrete; asked of concrete nodes only.
         tree: whose it is.
         place: its tree's number and its index in it: a total order of all nodes.
         parent: the node above, None for the root.
@@ -40,6 +41,7 @@ class LiveNode:
     """
 
     node: Node
+    action: Action
     tree: "LiveTree"
     place: tuple[int, int]
     parent: "LiveNode | None"
@@ -57,14 +59,6 @@ class LiveNode:
     faulted: bool = False
     waiting_since: float = 0.0
     ticket: int = -1
-
-    @property
-    def action(self) -> Action:
-        """Its schema, where it is concrete."""
-        schema = self.node.schema
-        if not isinstance(schema, Action):
-            raise TypeError(schema.name)
-        return schema
 
     def is_within(self, ancestor: "LiveNode") -> bool:
         """Whether it is that node or stands below it."""

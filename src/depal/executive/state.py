@@ -5,6 +5,7 @@ a restart that folds the journal agree, event by event.
 """
 
 from collections.abc import Callable, Iterable
+from typing import cast
 
 from depal.executive import events as ev
 from depal.executive.compiled import Compiler, Span, Watch, always
@@ -13,7 +14,7 @@ from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.events import Change, Outcome
 from depal.executive.holdings import Holdings
 from depal.executive.nodes import Attempt, LiveNode, LiveTree
-from depal.executive.schema import Cancel, Repository, Schema
+from depal.executive.schema import Action, Cancel, Repository, Schema
 from depal.executive.spans import Spans
 from depal.executive.timers import Timers
 from depal.executive.tree import Standing, Tree, ground, sweep
@@ -161,7 +162,8 @@ class State:
         tree = LiveTree(event.tree, [], event.priority, event.digest)
         for node in plain.nodes:
             parent = tree.nodes[node.parent] if node.parent >= 0 else None
-            live = LiveNode(node, tree, (event.tree, node.index), parent)
+            action = cast("Action", node.schema)
+            live = LiveNode(node, action, tree, (event.tree, node.index), parent)
             tree.nodes.append(live)
             if parent is not None:
                 parent.children.append(live)

@@ -1,7 +1,6 @@
 """The nodes that may run and do not, best first, by the resources that they claim."""
 
 import heapq
-from collections.abc import Container
 
 from depal.executive.nodes import LiveNode
 
@@ -49,11 +48,11 @@ class Waiting:
         """Whether anybody waits."""
         return bool(self._by_tree)
 
-    def firsts(self, closed: Container[str]) -> list[tuple[float, tuple[int, int], LiveNode]]:
+    def firsts(self, closed: set[str]) -> list[tuple[float, tuple[int, int], LiveNode]]:
         """The best of every claim without a closed resource: minus its rank, its place, itself."""
         found = []
         for claim, queue in self._queues.items():
-            if any(name in closed for name in claim):
+            if not closed.isdisjoint(claim):
                 continue
             while queue and queue[0][2] != queue[0][3].ticket:
                 heapq.heappop(queue)
