@@ -77,15 +77,41 @@ def _checked(what: str, report: dict[str, object]) -> Line:
 
 def selection() -> Iterator[Line]:
     """`depal bench selection`."""
-    report, _ = depal("bench", "selection")
+    yield from _benched("selection", "networkx")
+
+
+def executive() -> Iterator[Line]:
+    """`depal bench executive`."""
+    yield from _benched("executive", "py_trees")
+
+
+def _benched(part: str, peer_name: str) -> Iterator[Line]:
+    report, _ = depal("bench", part)
     figures = report["figures"]
     assert isinstance(figures, list)  # noqa: S101 - our own file
     for figure in figures:
         value, target, unit = figure["value"], figure["target"], figure["unit"]
-        peer = "" if figure["peer"] is None else f" (networkx: {figure['peer']:.3g})"
+        peer = "" if figure["peer"] is None else f" ({peer_name}: {figure['peer']:.3g})"
         yield Line(
             figure["name"], f"<= {target:g} {unit}", f"{value:.3g} {unit}{peer}", value <= target
         )
+
+
+def crashes() -> Iterator[Line]:
+    """Crashes at random events of runs with failing primitives, and after every single one."""
+    tests = "tests/executive/test_runtime.py"
+    done = subprocess.run(  # noqa: S603 - our own command
+        [BIN / "pytest", "-q", tests, "-k", "crash"],
+        cwd=ROOT, check=False, capture_output=True, text=True,
+        env={**os.environ, "DEPAL_CRASHES": "10000"},
+    )  # fmt: skip
+    good = done.returncode == 0
+    yield Line(
+        "two stores, 10,000 runs with up to 4 crashes, and a crash after every event",
+        "same facts, no motion twice",
+        "held in all" if good else "BROKEN: see pytest -k crash",
+        good,
+    )
 
 
 def case2() -> Iterator[Line]:
@@ -153,6 +179,8 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     selection,
     case2,
     unloading,
+    executive,
+    crashes,
     tests,
 )
 
