@@ -10,9 +10,10 @@ from worlds import STORE, effect
 
 from depal.errors import TaskError
 from depal.executive import events as ev
-from depal.executive.engine import Call, Engine, Report, Step, restored
+from depal.executive.engine import Call, Engine, Report, Step
 from depal.executive.events import Outcome, decode, encode
 from depal.executive.language import parse
+from depal.executive.restart import restored
 from depal.executive.schema import Repository
 from depal.executive.snapshot import freeze, thaw
 from depal.executive.state import State

@@ -15,11 +15,12 @@ from worlds import STORE, World, effect, runtime_of, store_all, until
 
 from depal.errors import JournalError, TaskError
 from depal.executive.clock import LoopClock, RealClock, SimulatedLoop, run_simulated
-from depal.executive.engine import Call, Engine, Report, restored
+from depal.executive.engine import Call, Engine, Report
 from depal.executive.events import Event, decode
 from depal.executive.journal import Journal, MemoryJournal, SqliteJournal
+from depal.executive.restart import restored, resumed
 from depal.executive.runtime import Context, Runtime
-from depal.executive.snapshot import freeze, thaw
+from depal.executive.snapshot import freeze
 from depal.executive.state import CANCEL_GRACE
 
 
@@ -345,12 +346,8 @@ def test_a_restart_from_a_snapshot_equals_one_from_the_beginning(tmp_path: Path)
             await store_all(runtime_of(world, journal), [f"b{i}" for i in range(90)])
 
         run_simulated(work())
-        snapshot = journal.snapshot()
-        assert snapshot is not None
-        engine = Engine(STORE)
-        engine.state = thaw(STORE, engine.state.weights, snapshot.body)
-        for record in journal.read(snapshot.sequence):
-            engine.state.apply(decode(record.at, record.kind, record.body))
+        assert journal.snapshot() is not None
+        engine = resumed(STORE, journal)
         folded = restored(STORE, events_of(journal))
         assert freeze(engine.state) == freeze(folded.state)
 

@@ -334,24 +334,3 @@ def _types_by_attribute(repository: Repository) -> dict[str, dict[str | None, Fa
         subject = None if declaration.subject[:1].isupper() else declaration.subject
         types.setdefault(declaration.attribute, {})[subject] = declaration.type
     return types
-
-
-def restored(
-    repository: Repository,
-    events: Iterable[ev.Event],
-    weights: EmphasisWeights = DEFAULT_WEIGHTS,
-) -> Engine:
-    """The engine that events lead to: folding the journal.
-
-    Args:
-        repository: the schemata that the events were made with.
-        events: from the beginning.
-        weights: of the emphasis.
-
-    Returns:
-        The engine; call `restart` before anything else.
-    """
-    engine = Engine(repository, weights)
-    for event in events:
-        engine.state.apply(event)
-    return engine

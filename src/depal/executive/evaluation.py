@@ -8,14 +8,16 @@ So a change of facts costs what it touches. What follows for primitives is for t
 from collections.abc import Iterable
 from typing import cast
 
-from depal.executive.compiled import Compiler, Span, Watch, always
-from depal.executive.conditions import Binding, Key, Lasting, Value, lasting_of
+from depal.executive.compiled import Compiler, Grounded, Span, Watch, always
+from depal.executive.conditions import ALWAYS, Binding, Key, Lasting, Value, lasting_of
 from depal.executive.events import Change
 from depal.executive.nodes import LiveNode, LiveTree
-from depal.executive.schema import Action, Repository, Schema
+from depal.executive.schema import Action, Repository, Task
 from depal.executive.spans import Spans
 from depal.executive.tree import Standing, Tree, ground, sweep
 from depal.executive.watching import POST, PRE, Watchers
+
+NEVER_FALSE: Grounded = (always, ())
 
 
 class Evaluation:
@@ -43,7 +45,7 @@ class Evaluation:
         self._watchers = Watchers()
         self._compiler = Compiler(self.facts, self.spans.of)
         self.spans.compiler = self._compiler
-        self._timed_schemata: dict[str, tuple[Lasting, ...]] = {}
+        self._timed, self._timed_edges = _time_conditions(repository)
 
     # What the subclass does about it
 
@@ -94,10 +96,12 @@ class Evaluation:
             tree.nodes.append(live)
             if parent is not None:
                 parent.children.append(live)
-            for lasting in self._timed(node.schema):
-                self._measure(self.spans.use(tree, lasting, node.binding))
-            for lasting in lasting_of(node.edge):
-                self._measure(self.spans.use(tree, lasting, node.edge_binding))
+            if node.schema.name in self._timed:
+                for lasting in self._timed[node.schema.name]:
+                    self._measure(self.spans.use(tree, lasting, node.binding))
+            if id(node.edge) in self._timed_edges:
+                for lasting in self._timed_edges[id(node.edge)]:
+                    self._measure(self.spans.use(tree, lasting, node.edge_binding))
         self.trees[number] = tree
         self.touched[number] = None
         self._wake(tree.root)
@@ -108,14 +112,6 @@ class Evaluation:
         self.touched[tree.number] = None
         self.spans.release(tree)
         del self.trees[tree.number]
-
-    def _timed(self, schema: Schema) -> tuple[Lasting, ...]:
-        """The time conditions of a schema itself."""
-        found = self._timed_schemata.get(schema.name)
-        if found is None:
-            found = (*lasting_of(schema.when), *lasting_of(schema.until))
-            self._timed_schemata[schema.name] = found
-        return found
 
     # Gates
 
@@ -138,14 +134,15 @@ class Evaluation:
 
     def _compile(self, node: LiveNode) -> None:
         plain, ground = node.node, self._compiler.ground
-        edge, edge_watches = ground(plain.edge, plain.edge_binding)
-        own, own_watches = ground(plain.schema.when, plain.binding)
-        if own is always:
-            node.pre = edge
-        else:
-            node.pre = own if edge is always else lambda: edge() and own()
         node.post, post_watches = ground(plain.schema.until, plain.binding)
-        node.watches = (edge_watches + own_watches, post_watches)
+        edge, edge_watches = NEVER_FALSE
+        if plain.edge is not ALWAYS:
+            edge, edge_watches = ground(plain.edge, plain.edge_binding)
+        node.pre, node.watches = edge, (edge_watches, post_watches)
+        if plain.schema.when is not ALWAYS:
+            own, own_watches = ground(plain.schema.when, plain.binding)
+            node.pre = own if edge is always else lambda: edge() and own()
+            node.watches = (edge_watches + own_watches, post_watches)
 
     def _regate(self, node: LiveNode) -> None:
         gate = (
@@ -198,7 +195,7 @@ class Evaluation:
             self._fact_emptied(key)
 
     def _settle(self, watches: dict[Watch, None]) -> None:
-        todo: list[Watch] = list(watches)
+        todo: list[Watch] = list(watches) if self.spans else []
         while todo:
             # A time condition may stand inside another: inner ones first, then who waits.
             spans = self.spans.concerned(todo)
@@ -235,3 +232,20 @@ class Evaluation:
             if not span.value:
                 self._call_at(span.since + span.seconds, span)
         return span.value != before
+
+
+def _time_conditions(
+    repository: Repository,
+) -> tuple[dict[str, tuple[Lasting, ...]], dict[int, tuple[Lasting, ...]]]:
+    """The schemata, by name, and the edges, by identity, that mention time; most do not."""
+    own: dict[str, tuple[Lasting, ...]] = {}
+    edges: dict[int, tuple[Lasting, ...]] = {}
+    for name, schema in repository.schemata.items():
+        found = (*lasting_of(schema.when), *lasting_of(schema.until))
+        if found:
+            own[name] = found
+        for step in schema.steps if isinstance(schema, Task) else ():
+            timed = tuple(lasting_of(step.when))
+            if timed:
+                edges[id(step.when)] = timed
+    return own, edges

@@ -22,6 +22,10 @@ class Spans:
         self._count = 0
         self._preset: dict[str, float] = {}
 
+    def __bool__(self) -> bool:
+        """Whether there is any."""
+        return bool(self._spans)
+
     def find(self, condition: Lasting, binding: Binding) -> Span | None:
         """The span of a grounded time condition, where a tree mentions it."""
         return self._spans.get(_named(condition, binding))
