@@ -18,6 +18,7 @@ from depal.executive.clock import LoopClock, RealClock, SimulatedLoop, run_simul
 from depal.executive.engine import Call, Engine, Report
 from depal.executive.events import Event, decode
 from depal.executive.journal import Journal, MemoryJournal, SqliteJournal
+from depal.executive.language import format_repository, parse
 from depal.executive.restart import restored, resumed
 from depal.executive.runtime import Context, Runtime
 from depal.executive.snapshot import freeze
@@ -433,3 +434,23 @@ def test_fact_to_command_is_quick_in_real_time() -> None:
         return started[0] - told
 
     assert asyncio.run(work()) < 0.05
+
+
+def test_a_journal_of_other_task_files_is_refused() -> None:
+    """Whether by its events or by its snapshot: a tree means what its file said."""
+    journal = MemoryJournal()
+
+    async def work() -> None:
+        runtime = runtime_of(World(), journal)
+        runtime.allocate(Call("store", ("b1",)))
+        await asyncio.sleep(1)
+        await runtime.close()
+
+    run_simulated(work())
+    changed = parse(format_repository(STORE).replace("retries 3 backoff 0.5 s", "retries 9"))
+    with pytest.raises(JournalError, match=r"tree 1, store\(b1\), was allocated from other task"):
+        restored(changed, events_of(journal))
+    journal.save_snapshot(journal.last, freeze(restored(STORE, events_of(journal)).state))
+    with pytest.raises(JournalError, match="the snapshot was made with other task files"):
+        resumed(changed, journal)
+    assert resumed(STORE, journal).state.trees

@@ -4,9 +4,10 @@ import gc
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
+from depal.errors import JournalError
 from depal.executive.emphasis import EmphasisWeights
 from depal.executive.engine import DEFAULT_WEIGHTS, Engine
-from depal.executive.events import Event, decode
+from depal.executive.events import Allocated, Event, decode
 from depal.executive.journal import Journal
 from depal.executive.schema import Repository
 from depal.executive.snapshot import thaw
@@ -24,11 +25,14 @@ def restored(
 
     Returns:
         The engine; call `restart` before anything else.
+
+    Raises:
+        JournalError: a tree was allocated from other task files.
     """
     engine = Engine(repository, weights)
     with _no_collection():
         for event in events:
-            engine.state.apply(event)
+            _fold(engine, event)
     return engine
 
 
@@ -55,8 +59,19 @@ def resumed(
             engine.state = thaw(repository, weights, snapshot.body)
         after = 0 if snapshot is None else snapshot.sequence
         for record in journal.read(after):
-            engine.state.apply(decode(record.at, record.kind, record.body))
+            _fold(engine, decode(record.at, record.kind, record.body))
     return engine
+
+
+def _fold(engine: Engine, event: Event) -> None:
+    if isinstance(event, Allocated) and event.digest != engine.repository.digest:
+        message = (
+            f"tree {event.tree}, {event.schema}({', '.join(event.args)}), was allocated from other "
+            f"task files ({event.digest}, now {engine.repository.digest}); expected the files that "
+            "the journal was written with"
+        )
+        raise JournalError(message)
+    engine.state.apply(event)
 
 
 @contextmanager
