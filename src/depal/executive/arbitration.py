@@ -11,9 +11,16 @@ from depal.executive.waiting import Waiting
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What one look at everybody decides: one node to start, or attempts to break off."""
+    """What one look at everybody decides: one node to start, or attempts to break off.
+
+    Attributes:
+        start: the node to start.
+        contested: whether somebody waits for what another uses, so that time alone may decide.
+        displace: the attempts to break off, and for whom.
+    """
 
     start: LiveNode | None = None
+    contested: bool = False
     displace: tuple[tuple[Attempt, LiveNode], ...] = ()
 
 
@@ -60,7 +67,7 @@ def arbitrate(
             if holder is not None:
                 displaced.append((holder, node))
         reserved.update(claim)
-    return Verdict(displace=tuple(displaced))
+    return Verdict(contested=bool(reserved), displace=tuple(displaced))
 
 
 def _candidates(waiting: Waiting, holdings: Holdings, weights: EmphasisWeights) -> list[LiveNode]:

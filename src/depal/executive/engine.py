@@ -83,6 +83,7 @@ class Engine:
         self.repository = repository
         self.state = State(repository, weights)
         self._types = _types_by_attribute(repository)
+        self._uncontested = (-1, -1)
 
     # Inputs
 
@@ -229,7 +230,12 @@ class Engine:
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""
         state = self.state
+        moment = (state.waiting.version, state.holdings.version)
+        if moment == self._uncontested:
+            return False  # nothing has changed since a look that found nobody to decide about
         verdict = arbitrate(state.waiting, state.holdings, state.attempts, state.weights, at)
+        if verdict.start is None and not verdict.contested:
+            self._uncontested = moment
         for attempt, challenger in verdict.displace:
             if attempt.cancel is None:
                 reason = f"{challenger.node.label} is more urgent"

@@ -184,7 +184,10 @@ class Evaluation:
             before = self.facts.get(key)
             if before == value and type(before) is type(value):
                 continue
-            self.facts[key] = value
+            if value is None:
+                self.facts.pop(key, None)
+            else:
+                self.facts[key] = value
             self.changed_at[key] = self.now
             watches[key] = watches[key, before] = watches[key, value] = None
             if value is None:

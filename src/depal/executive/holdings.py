@@ -15,7 +15,8 @@ class Holdings:
     """
 
     def __init__(self, resources: Mapping[str, Resource]) -> None:
-        """Everything is free."""
+        """Everything is free; `version` is another number whenever that has changed."""
+        self.version = 0
         self._capacity = {name: resource.capacity for name, resource in resources.items()}
         self._users: dict[str, dict[int, LiveNode]] = {name: {} for name in resources}
         self._keepers: dict[str, list[LiveNode]] = {name: [] for name in resources}
@@ -67,6 +68,7 @@ class Holdings:
 
     def use(self, attempt: int, node: LiveNode) -> None:
         """A primitive uses one unit of each resource that it claims."""
+        self.version += 1
         for resource in node.action.uses:
             self._users[resource][attempt] = node
 
@@ -90,6 +92,7 @@ class Holdings:
 
     def give_back(self, attempt: int, node: LiveNode) -> None:
         """A primitive has ended."""
+        self.version += 1
         for resource in node.action.uses:
             self._users[resource].pop(attempt, None)
 
@@ -103,6 +106,7 @@ class Holdings:
                     self._recount(resource)
 
     def _recount(self, resource: str) -> None:
+        self.version += 1
         self._all_keepers = [node for nodes in self._keepers.values() for node in nodes]
         if len(self._keepers[resource]) >= self._capacity[resource]:
             self._closed.add(resource)

@@ -6,6 +6,9 @@ from typing import Generic, TypeVar
 
 T = TypeVar("T")
 
+ROOM = 64
+"""So many timers there may be before the stale ones are swept out."""
+
 
 class Timers(Generic[T]):
     """A queue of things that wait for a moment.
@@ -22,11 +25,17 @@ class Timers(Generic[T]):
         self._is_stale = is_stale
         self._queue: list[tuple[float, int, T]] = []
         self._count = 0
+        self._room = ROOM
 
     def set(self, at: float, what: T) -> None:
         """Something waits until `at` [s]."""
         self._count += 1
         heapq.heappush(self._queue, (at, self._count, what))
+        if len(self._queue) > self._room:
+            # Stale timers would keep what they waited for alive.
+            self._queue = [entry for entry in self._queue if not self._is_stale(entry[0], entry[2])]
+            heapq.heapify(self._queue)
+            self._room = max(ROOM, 2 * len(self._queue))
 
     def next(self) -> float | None:
         """The moment of the soonest [s], None where nothing waits."""

@@ -7,6 +7,10 @@ from depal.executive.nodes import LiveNode
 Claim = tuple[str, ...]
 
 
+ROOM = 64
+"""So many entries a queue may have before its stale ones are swept out."""
+
+
 class Waiting:
     """Queues by claim; an entry that is no longer true is dropped when it comes up.
 
@@ -15,24 +19,34 @@ class Waiting:
     """
 
     def __init__(self) -> None:
-        """Nobody waits."""
+        """Nobody waits; `version` is another number whenever that has changed."""
         self._queues: dict[Claim, list[tuple[float, tuple[int, int], int, LiveNode]]] = {}
         self._by_tree: dict[int, dict[int, LiveNode]] = {}
         self._tickets = 0
+        self._roomy: dict[Claim, int] = {}
+        self.version = 0
 
     def put(self, node: LiveNode, rank: float) -> None:
         """A node waits, with its rank; what it had before is stale."""
+        self.version += 1
         self._tickets += 1
         node.ticket = self._tickets
         tree, index = node.place
         self._by_tree.setdefault(tree, {})[index] = node
-        entry = (-rank, node.place, node.ticket, node)
-        heapq.heappush(self._queues.setdefault(node.action.uses, []), entry)
+        claim = node.action.uses
+        queue = self._queues.setdefault(claim, [])
+        heapq.heappush(queue, (-rank, node.place, node.ticket, node))
+        if len(queue) > self._roomy.get(claim, ROOM):
+            # Stale entries would keep the nodes of ended trees alive.
+            queue[:] = [entry for entry in queue if entry[2] == entry[3].ticket]
+            heapq.heapify(queue)
+            self._roomy[claim] = max(ROOM, 2 * len(queue))
 
     def drop(self, node: LiveNode) -> None:
         """A node no longer waits."""
         if node.ticket < 0:
             return
+        self.version += 1
         node.ticket = -1
         tree, index = node.place
         waiting = self._by_tree[tree]
