@@ -3,6 +3,7 @@
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from worlds import STORE
 
 from depal.executive import conditions as c
 from depal.executive import events as ev
@@ -636,3 +637,38 @@ def test_what_waits_for_a_kept_resource_holds_nobody_up() -> None:
     engine.change([("b2.c", True)], "world", 2.0)
     end(engine, "hold(b2)", Outcome.CANCELLED, 3.0)
     assert running(engine) == ["aside(b3)", "lay(b4)", "grip(b1)"]
+
+
+def test_one_challenger_breaks_off_one_holder() -> None:
+    """A unit that is already on its way is not asked for twice, whatever happens meanwhile."""
+    tasks = parse(
+        """
+fact Box.done : flag
+fact lamp.on : flag
+resource arm capacity 2
+task work(Box) until Box.done
+  - turn(Box)
+action turn(Box) until Box.done uses arm sets Box.done cancel at_checkpoint
+""",
+        "two_units",
+    )
+    engine = Engine(tasks)
+    engine.allocate([Call("work", ("b1",), 0.1), Call("work", ("b2",), 0.2)], 0.0)
+    engine.allocate([Call("work", ("b3",), 0.9)], 1.0)
+    engine.change([("lamp.on", True)], "person", 2.0)
+    asked = [a.node.node.args[0] for a in engine.state.attempts.values() if a.cancel is not None]
+    assert asked == ["b1"]
+
+
+def test_a_task_that_opens_again_keeps_what_it_still_uses() -> None:
+    """Otherwise the arm would go for another box with this one in the gripper."""
+    engine = Engine(STORE)
+    engine.allocate([Call("store", ("b1",), 0.5)], 0.0)
+    engine.report(1, Report((("kr60.at", "b1"),)), 1.0)
+    engine.allocate([Call("store", ("b2",), 0.9)], 2.0)
+    engine.change([("b1.on_floor", True)], "camera", 3.0)
+    engine.change([("b1.on_floor", False)], "camera", 4.0)
+    (grasp,) = engine.state.attempts.values()
+    engine.report(grasp.number, Report((("b1.taken", True),)), 5.0)
+    running = [attempt.node.node.label for attempt in engine.state.attempts.values()]
+    assert running == ["kr60_show(b1)"]

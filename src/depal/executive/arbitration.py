@@ -98,6 +98,8 @@ def _displaceable(
     """The weakest user of a resource that the challenger exceeds by the margin, if any may go."""
     age = weights.age * (now - challenger.waiting_since)
     strength = resting_emphasis(challenger, weights) + age
+    if any(attempts[number].cancel is not None for number in holdings.users(resource)):
+        return None  # a unit is on its way
     users = [
         (resting_emphasis(user, weights), number)
         for number, user in holdings.users(resource).items()
@@ -106,6 +108,6 @@ def _displaceable(
     ]
     for emphasis, number in sorted(users):
         attempt = attempts[number]
-        if strength > emphasis + weights.margin and attempt.cancel is None:
+        if strength > emphasis + weights.margin:
             return attempt
     return None

@@ -37,6 +37,7 @@ class Span:
         watches: what its part waits for.
         since: since when the part holds without a break, None while it does not [s].
         value: whether it has held for long enough.
+        due: when it wants to be measured again [s].
         users: how often allocated trees mention it.
     """
 
@@ -47,6 +48,7 @@ class Span:
     since: float | None = None
     value: bool = False
     users: int = 0
+    due: float | None = None
 
 
 SpanOf = Callable[[Lasting, Binding], Span]

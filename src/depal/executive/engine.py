@@ -83,7 +83,7 @@ class Engine:
         self.repository = repository
         self.state = State(repository, weights)
         self._types = _types_by_attribute(repository)
-        self._uncontested = (-1, -1)
+        self._uncontested = (0, -1, -1)
 
     # Inputs
 
@@ -230,7 +230,7 @@ class Engine:
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""
         state = self.state
-        moment = (state.waiting.version, state.holdings.version)
+        moment = (id(state), state.waiting.version, state.holdings.version)
         if moment == self._uncontested:
             return False  # nothing has changed since a look that found nobody to decide about
         verdict = arbitrate(state.waiting, state.holdings, state.attempts, state.weights, at)

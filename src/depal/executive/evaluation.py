@@ -57,6 +57,10 @@ class Evaluation:
         """A concrete node's gate has closed."""
         raise NotImplementedError
 
+    def _task_opened(self, node: LiveNode) -> None:
+        """An abstract node's gate has opened."""
+        raise NotImplementedError
+
     def _task_closed(self, node: LiveNode) -> None:
         """An abstract node's gate has closed."""
         raise NotImplementedError
@@ -163,6 +167,8 @@ class Evaluation:
     def _opened(self, node: LiveNode) -> None:
         if node.node.concrete:
             self._primitive_opened(node)
+            return
+        self._task_opened(node)
         for child in node.children:
             self._wake(child)
 
@@ -232,8 +238,10 @@ class Evaluation:
             if span.since is None:
                 span.since = self.now
             span.value = self.now >= span.since + span.seconds
-            if not span.value:
-                self._call_at(span.since + span.seconds, span)
+            due = span.since + span.seconds
+            if not span.value and span.due != due:
+                span.due = due
+                self._call_at(due, span)
         return span.value != before
 
 

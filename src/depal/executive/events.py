@@ -172,6 +172,10 @@ _KINDS: Final[dict[str, type[Event]]] = {
 }
 
 
+_OUTCOMES: Final = {outcome.value: outcome for outcome in Outcome}
+_read: Final = json.JSONDecoder().decode
+
+
 def encode(event: Event) -> str:
     """The canonical text of an event, without its kind and its time."""
     body: dict[str, Any] = {}
@@ -189,13 +193,13 @@ def decode(at: float, kind: str, body: str) -> Event:
         JournalError: it is no event of this version.
     """
     try:
-        values = json.loads(body)
-        if "facts" in values:
-            values["facts"] = tuple((key, value) for key, value in values["facts"])
-        if "args" in values:
+        values = _read(body)
+        if kind == "Ended":
+            values["outcome"] = _OUTCOMES[values["outcome"]]
+        if kind in {"Ended", "Changed"}:
+            values["facts"] = tuple([(key, value) for key, value in values["facts"]])
+        elif kind == "Allocated":
             values["args"] = tuple(values["args"])
-        if "outcome" in values:
-            values["outcome"] = Outcome(values["outcome"])
         return _KINDS[kind](at=at, **values)
     except (ValueError, KeyError, TypeError) as error:
         message = f"the journal holds no event of this version: {kind} {body[:80]}"

@@ -90,6 +90,15 @@ class Holdings:
             self._keepers[resource].append(node)
             self._recount(resource)
 
+    def keep_again(self, node: LiveNode) -> None:
+        """A task's gate has opened again: it keeps what a primitive inside still uses."""
+        schema = node.node.schema
+        if isinstance(schema, Task):
+            for resource in schema.keeps:
+                in_use = any(user.is_within(node) for user in self._users[resource].values())
+                if in_use and self.keeper_above(node, resource) is None:
+                    self.keep(resource, node)
+
     def give_back(self, attempt: int, node: LiveNode) -> None:
         """A primitive has ended."""
         self.version += 1

@@ -162,6 +162,9 @@ class State(Evaluation):
             if attempt.cancel is None and node.action.cancel is not Cancel.NEVER:
                 self.orphans[attempt.number] = attempt
 
+    def _task_opened(self, node: LiveNode) -> None:
+        self.holdings.keep_again(node)
+
     def _task_closed(self, node: LiveNode) -> None:
         self.holdings.stop_keeping(node)
 
