@@ -120,7 +120,7 @@ class Evaluation:
     # Gates
 
     def _wake(self, node: LiveNode) -> None:
-        if not node.watches[1]:
+        if node.entries is None:
             self._compile(node)
         node.awake = True
         self._watchers.watch(node)
@@ -142,11 +142,15 @@ class Evaluation:
         edge, edge_watches = NEVER_FALSE
         if plain.edge is not ALWAYS:
             edge, edge_watches = ground(plain.edge, plain.edge_binding)
-        node.pre, node.watches = edge, (edge_watches, post_watches)
+        node.pre = edge
         if plain.schema.when is not ALWAYS:
             own, own_watches = ground(plain.schema.when, plain.binding)
             node.pre = own if edge is always else lambda: edge() and own()
-            node.watches = (edge_watches + own_watches, post_watches)
+            edge_watches += own_watches
+        before, after = (*node.place, PRE), (*node.place, POST)
+        entries = [(watch, before) for watch in edge_watches]
+        entries += [(watch, after) for watch in post_watches]
+        node.entries = tuple(entries)
 
     def _regate(self, node: LiveNode) -> None:
         gate = (

@@ -11,6 +11,10 @@ SpanName = tuple[Lasting, frozenset[tuple[str, str]]]
 """A time condition and the things that it is about."""
 
 
+Token = tuple[int, int, int]
+"""Tree, node and side of a watched condition."""
+
+
 @dataclass(slots=True, eq=False)
 class LiveNode:
     """A node and its moving parts.
@@ -27,7 +31,7 @@ class LiveNode:
         children: the nodes below.
         pre: the preconditions of its edge and of its schema.
         post: its postcondition.
-        watches: what `pre` waits for, and what `post` waits for.
+        entries: what `pre` and `post` wait for; None until it first wakes.
         awake: whether it is watched.
         holds_pre: the value of `pre`, while awake.
         holds_post: the value of `post`, while awake.
@@ -48,7 +52,7 @@ class LiveNode:
     children: list["LiveNode"] = field(default_factory=list)
     pre: Test = always
     post: Test = always
-    watches: tuple[tuple[Watch, ...], tuple[Watch, ...]] = ((), ())
+    entries: tuple[tuple[Watch, Token], ...] | None = None
     awake: bool = False
     holds_pre: bool = False
     holds_post: bool = False

@@ -32,9 +32,12 @@ class NodeState(Enum):
     ACCOMPLISHED = "accomplished"
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True, eq=False)
 class Node:
-    """A grounded schema in a tree.
+    """A grounded schema in a tree; not changed once it is made.
+
+    It is no frozen dataclass because those take three times as long to make, and a tree has a
+    dozen of them.
 
     Attributes:
         index: its place in the tree's `nodes`; parents come before their children.

@@ -3,10 +3,7 @@
 from collections.abc import Iterable
 
 from depal.executive.compiled import Watch
-from depal.executive.nodes import LiveNode
-
-Token = tuple[int, int, int]
-"""Tree, node and side of a watched condition."""
+from depal.executive.nodes import LiveNode, Token
 
 PRE, POST = 0, 1
 
@@ -20,21 +17,23 @@ class Watchers:
 
     def watch(self, node: LiveNode) -> None:
         """A node's conditions are to be told of changes."""
-        tree, index = node.place
-        for side, watches in enumerate(node.watches):
-            token = (tree, index, side)
-            for watch in watches:
-                self._nodes.setdefault(watch, {})[token] = node
+        index = self._nodes
+        for watch, token in node.entries or ():
+            waiting = index.get(watch)
+            if waiting is None:
+                index[watch] = {token: node}
+            else:
+                waiting[token] = node
 
     def unwatch(self, node: LiveNode) -> None:
         """A node's conditions are not to be told any more."""
-        tree, index = node.place
-        for side, watches in enumerate(node.watches):
-            for watch in watches:
-                waiting = self._nodes.get(watch, {})
-                waiting.pop((tree, index, side), None)
+        index = self._nodes
+        for watch, token in node.entries or ():
+            waiting = index.get(watch)
+            if waiting is not None:
+                waiting.pop(token, None)
                 if not waiting:
-                    self._nodes.pop(watch, None)
+                    del index[watch]
 
     def nodes(self, watches: Iterable[Watch]) -> list[tuple[Token, LiveNode]]:
         """The nodes' conditions that changes concern, in the order of trees and nodes."""
