@@ -8,6 +8,8 @@ from pathlib import Path
 
 import pytest
 
+pytestmark = pytest.mark.slow  # a process each
+
 ROOT = Path(__file__).resolve().parent.parent.parent
 
 

@@ -9,6 +9,7 @@ from depal.geometry.oriented_box import OrientedBox
 from depal.geometry.pose import Matrix3, Pose, Vector3
 from depal.geometry.prism import (
     PRISM_WIDTH,
+    first_unsound,
     footprint_overlap,
     holds_centre,
     lateral_interval,
@@ -23,6 +24,7 @@ __all__ = [
     "OrientedBox",
     "Pose",
     "Vector3",
+    "first_unsound",
     "footprint_overlap",
     "holds_centre",
     "kernel",

@@ -8,12 +8,14 @@ x, y, z of the centre [m], half length, half width, half height [m], cos and sin
 
 import math
 from collections.abc import Iterable
+from itertools import chain
 
 import numpy as np
 import numpy.typing as npt
 
 from depal.geometry.kernel import loop_kernel
 from depal.geometry.oriented_box import OrientedBox
+from depal.geometry.pose import IDENTITY
 
 PRISM_WIDTH = 8
 X, Y, Z, HALF_LENGTH, HALF_WIDTH, HALF_HEIGHT, COS, SIN = range(PRISM_WIDTH)
@@ -25,8 +27,8 @@ _TILTED = 1e-12
 
 def prisms_of(boxes: Iterable[OrientedBox]) -> Array:
     """The prisms of boxes in one frame with z up, (n, 8)."""
-    rows = [prism_of(box) for box in boxes]
-    return np.array(rows, dtype=np.float64).reshape(-1, PRISM_WIDTH)
+    numbers = chain.from_iterable(map(prism_of, boxes))
+    return np.fromiter(numbers, np.float64).reshape(-1, PRISM_WIDTH)
 
 
 def prism_of(box: OrientedBox) -> tuple[float, float, float, float, float, float, float, float]:
@@ -35,10 +37,11 @@ def prism_of(box: OrientedBox) -> tuple[float, float, float, float, float, float
     The box's axis nearest to the vertical becomes the prism's height, the longer part of the
     remaining horizontal axis its yaw, folded into (-45, 45] degrees.
     """
-    (x, y, z), (length, width, height) = box.pose.translation, box.size
-    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = box.pose.rotation
-    if r00 == 1.0 and r11 == 1.0 and r22 == 1.0:
+    pose = box.pose
+    (x, y, z), (length, width, height), rotation = pose.translation, box.size, pose.rotation
+    if rotation is IDENTITY or rotation == IDENTITY:
         return (x, y, z, length / 2, width / 2, height / 2, 1.0, 0.0)
+    (r00, r01, r02), (r10, r11, r12), (r20, r21, r22) = rotation
     columns = ((r00, r10, r20), (r01, r11, r21), (r02, r12, r22))
     up = max(range(3), key=lambda axis: (abs(columns[axis][2]), axis))
     forward = columns[(up + 1) % 3]
@@ -132,3 +135,15 @@ def holds_centre(prisms: Array, a: int, b: int) -> bool:
         and abs(c * dx + s * dy) < prisms[a, HALF_LENGTH]
         and abs(c * dy - s * dx) < prisms[a, HALF_WIDTH]
     )
+
+
+@loop_kernel
+def first_unsound(prisms: Array, first: int, last: int) -> int:
+    """The first of the rows first .. last - 1 that is not finite or has no size; -1 for none."""
+    for a in range(first, last):
+        for column in range(PRISM_WIDTH):
+            if not math.isfinite(prisms[a, column]):
+                return a
+        if min(prisms[a, HALF_LENGTH], prisms[a, HALF_WIDTH], prisms[a, HALF_HEIGHT]) <= 0:
+            return a
+    return -1

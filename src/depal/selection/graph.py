@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from depal.domain import BoxId, Perceived
 from depal.errors import PileError, Problem, did_you_mean
-from depal.geometry import PRISM_WIDTH, prism_of, prisms_of
+from depal.geometry import PRISM_WIDTH, first_unsound, prism_of, prisms_of
 from depal.selection.building import link_prisms
 from depal.selection.links import (
     BUILT,
@@ -244,8 +244,9 @@ class BlockingGraph:
             if self._slots.setdefault(box.id, slot) != slot:
                 raise _taken(box.id)
         self._prisms = prisms_of(box.shape for box in boxes)
-        for slot in np.flatnonzero(~_solid(self._prisms))[:1].tolist():
-            raise _no_box(boxes[slot])
+        unsound = first_unsound(self._prisms, 0, len(boxes))
+        if unsound != NONE:
+            raise _no_box(boxes[unsound])
         self._links, (a, b) = link_prisms(self._prisms, self.tolerances)
         if a != BUILT:
             raise _in_one_place(boxes[a], boxes[b])
@@ -261,7 +262,7 @@ class BlockingGraph:
     def _place(self, slot: int, box: Perceived) -> None:
         before = self._prisms[slot].copy()
         self._prisms[slot] = prism_of(box.shape)
-        if not _solid(self._prisms[slot : slot + 1])[0]:
+        if first_unsound(self._prisms, slot, slot + 1) != NONE:
             self._prisms[slot] = before
             raise _no_box(box)
         codes = np.empty(len(self._boxes), np.int32)
@@ -299,12 +300,6 @@ def _in_one_place(first: Perceived, second: Perceived) -> PileError:
     what = f"boxes {names[0]!r} and {names[1]!r} are in one place"
     where = f"pile at ({x:.3f}, {y:.3f}, {z:.3f}) m"
     return PileError("", [Problem(where, what, "boxes that stand beside each other")])
-
-
-def _solid(prisms: Array) -> npt.NDArray[np.bool_]:
-    """(n,) whether each prism has a place and a size."""
-    finite = np.isfinite(prisms).all(axis=1)
-    return np.logical_and(finite, (prisms[:, 3:6] > 0).all(axis=1))
 
 
 def _no_box(box: Perceived) -> PileError:

@@ -114,9 +114,27 @@ def geometric_rank(prisms: Array, h: Array | None = None) -> npt.NDArray[np.int6
     Returns:
         (n,) 0 for the first.
     """
-    x, y, z = stepped(prisms[:, :3].T)
-    keys = [-y, -np.abs(y), x, -z]
-    order = np.lexsort(keys if h is None else [*keys, -stepped(h)])
+    order = np.lexsort(_ties(prisms) if h is None else [*_ties(prisms), -stepped(h)])
     rank = np.empty(len(prisms), np.int64)
     rank[order] = np.arange(len(prisms))
     return rank
+
+
+def queue_order(prisms: Array, h: Array, s: Array) -> npt.NDArray[np.intp]:
+    """Line 12 of Algorithm 1: the rows by falling score, ties as `geometric_rank` settles them.
+
+    Args:
+        prisms: (n, 8).
+        h: (n,) Eq. (1).
+        s: (n,) Eq. (3).
+
+    Returns:
+        (n,) the rows, best first.
+    """
+    return np.lexsort([*_ties(prisms), -stepped(h), -stepped(s)])
+
+
+def _ties(prisms: Array) -> list[Array]:
+    """The keys that settle ties, the last one first."""
+    x, y, z = stepped(prisms[:, :3].T)
+    return [-y, -np.abs(y), x, -z]

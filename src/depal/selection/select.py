@@ -8,12 +8,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TypeVar
 
-import numpy as np
-
 from depal.domain import Perceived, Request
 from depal.selection.decision import Decision, Outcome, Refused, Scores
 from depal.selection.graph import BlockingGraph
-from depal.selection.score import ScoreRule, geometric_rank, mixed_score, position_priority, stepped
+from depal.selection.links import EMPTY
+from depal.selection.score import ScoreRule, mixed_score, position_priority, queue_order
 from depal.selection.walks import blocker_table, propagate
 from depal.selection.wanted import Aim, aims_of, strongest_first
 
@@ -79,10 +78,8 @@ def _scored(graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule) -> Sco
     h = position_priority(graph.prisms, rule.x_max, rule.weights)
     l = propagate(graph.links, *strongest_first(graph, aims))  # noqa: E741 - the paper's name
     s = mixed_score(h, l, rule.w)
-    rank = geometric_rank(graph.prisms, h)
-    used = graph.used_slots
-    queue = used[np.lexsort((rank[used], -stepped(s[used])))]
-    return Scores(queue, h, l, s)
+    order = queue_order(graph.prisms, h, s)
+    return Scores(order[graph.links.blockers[order] != EMPTY], h, l, s)
 
 
 def _outcome(graph: BlockingGraph, target: Perceived | None) -> Outcome:

@@ -156,6 +156,7 @@ def repositories(draw: st.DrawFn) -> Repository:
     )
 
 
+@pytest.mark.slow
 @given(repositories())
 def test_what_is_written_is_read_back(repository: Repository) -> None:
     """Reading the canonical text gives the same repository, in the same order."""
@@ -165,6 +166,7 @@ def test_what_is_written_is_read_back(repository: Repository) -> None:
     assert list(again.schemata) == list(repository.schemata)
 
 
+@pytest.mark.slow
 @given(repositories())
 def test_canonical_text_stays_as_it_is(repository: Repository) -> None:
     """Formatting twice is formatting once, and the digest is that of the text."""
@@ -197,6 +199,7 @@ def condition_of(text: str) -> Condition:
     return schema.until
 
 
+@pytest.mark.slow
 @given(tasks() | actions())
 def test_a_schema_is_written_as_in_its_repository(schema: Schema) -> None:
     """One schema alone and a repository of it have the same text."""
