@@ -91,7 +91,8 @@ def _benched(part: str, peer_name: str) -> Iterator[Line]:
     assert isinstance(figures, list)  # noqa: S101 - our own file
     for figure in figures:
         value, target, unit = figure["value"], figure["target"], figure["unit"]
-        peer = "" if figure["peer"] is None else f" ({peer_name}: {figure['peer']:.3g})"
+        name = "GTPyhop" if figure["name"].startswith("allocate") else peer_name
+        peer = "" if figure["peer"] is None else f" ({name}: {figure['peer']:.3g})"
         yield Line(
             figure["name"], f"<= {target:g} {unit}", f"{value:.3g} {unit}{peer}", value <= target
         )
