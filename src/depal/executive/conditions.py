@@ -144,6 +144,20 @@ def facts_of(condition: Condition) -> Iterator[FactRef]:
                 yield from facts_of(part)
 
 
+def comparisons_of(condition: Condition) -> Iterator[Compare]:
+    """Every comparison inside, left to right."""
+    match condition:
+        case Compare():
+            yield condition
+        case Not(part) | Lasting(part, _):
+            yield from comparisons_of(part)
+        case AllOf(parts) | AnyOf(parts):
+            for part in parts:
+                yield from comparisons_of(part)
+        case _:
+            return
+
+
 def lasting_of(condition: Condition) -> Iterator[Lasting]:
     """Every time condition inside, the inner ones first."""
     match condition:

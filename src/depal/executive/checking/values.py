@@ -5,15 +5,12 @@ from collections.abc import Iterator
 from depal.executive.checking.findings import Finding, FindingKind, head_of, place_of
 from depal.executive.checking.names import check_fact
 from depal.executive.conditions import (
-    AllOf,
-    AnyOf,
     Compare,
     Condition,
     FactRef,
-    Lasting,
     Literal,
-    Not,
     Var,
+    comparisons_of,
     facts_of,
 )
 from depal.executive.exploring.grounding import declaration_of, known_sorts, sorts_of
@@ -39,21 +36,8 @@ def check_conditions(repository: Repository) -> Iterator[Finding]:
         for where, condition in conditions_in(schema):
             for fact in dict.fromkeys(facts_of(condition)):
                 yield from check_fact(repository, schema, fact, where)
-            for compare in _comparisons(condition):
+            for compare in comparisons_of(condition):
                 yield from _check_comparison(repository, schema, compare, where)
-
-
-def _comparisons(condition: Condition) -> Iterator[Compare]:
-    match condition:
-        case Compare():
-            yield condition
-        case Not(part) | Lasting(part, _):
-            yield from _comparisons(part)
-        case AllOf(parts) | AnyOf(parts):
-            for part in parts:
-                yield from _comparisons(part)
-        case _:
-            return
 
 
 def _check_comparison(

@@ -5,19 +5,15 @@ and one beyond either end. Of names, the compared ones are kept, and for every f
 compared with another a name of its own that occurs nowhere.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Mapping
 from itertools import pairwise
 
 from depal.executive.conditions import (
-    AllOf,
-    AnyOf,
-    Compare,
-    Condition,
     FactRef,
     Lasting,
     Literal,
-    Not,
     Value,
+    comparisons_of,
     key_of,
     lasting_of,
 )
@@ -51,7 +47,7 @@ def domains_of(conditions: Iterable[Grounded], more: Mapping[str, FactDeclaratio
     facts = {key: fact for item in listed for key, fact in item.facts.items()} | dict(more)
     groups: dict[str, set[str]] = {key: {key} for key in facts}
     constants: dict[str, set[bool | float | str]] = {key: set() for key in facts}
-    for compare in (part for item in listed for part in _comparisons(item.condition)):
+    for compare in (part for item in listed for part in comparisons_of(item.condition)):
         left = key_of(compare.fact, {})
         if left not in facts:
             continue
@@ -68,19 +64,6 @@ def domains_of(conditions: Iterable[Grounded], more: Mapping[str, FactDeclaratio
     }
     times = {lasting_key(part) for item in listed for part in lasting_of(item.condition)}
     return domains | dict.fromkeys(sorted(times), (False, True))
-
-
-def _comparisons(condition: Condition) -> Iterator[Compare]:
-    match condition:
-        case Compare():
-            yield condition
-        case Not(part) | Lasting(part, _):
-            yield from _comparisons(part)
-        case AllOf(parts) | AnyOf(parts):
-            for part in parts:
-                yield from _comparisons(part)
-        case _:
-            return
 
 
 def _fitting(
