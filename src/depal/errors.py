@@ -6,7 +6,9 @@
     │   ├── RequestError    a request, or a file of them
     │   ├── PileError       a set of perceived boxes that cannot stand in one world
     │   ├── TaskError       a task file, or a call of a task, that cannot be used
-    │   └── SettingError    a number or a name outside its range
+    │   ├── SettingError    a number or a name outside its range
+    │   └── CellError       a cell file, or a cell that cannot do its work
+    ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
 
@@ -18,8 +20,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 __all__ = [
+    "CellError",
     "DeliveryError",
     "DepalError",
+    "DeviceError",
     "InputError",
     "JournalError",
     "MissingPartError",
@@ -115,6 +119,14 @@ class SettingError(InputError):
     def __init__(self, where: str, what: str, expected: str = "", exists: str = "") -> None:
         """States the one setting that is wrong."""
         super().__init__("", [Problem(where, what, expected, exists)])
+
+
+class CellError(InputError):
+    """A cell file that cannot be used, or a cell that cannot do its work."""
+
+
+class DeviceError(DepalError):
+    """A device does not do what it was told; the message says which and why."""
 
 
 class JournalError(DepalError):

@@ -1,0 +1,37 @@
+"""The seams between the controller and everything outside: small protocols and their values."""
+
+from depal.executive.clock import Clock
+from depal.ports.devices import (
+    Arm,
+    BarcodeReader,
+    Bays,
+    Camera,
+    Frame,
+    Gripper,
+    Guard,
+    Safety,
+    SafetyState,
+)
+from depal.ports.people import Movement, Person, Question, StoreSystem
+from depal.ports.sight import Sight, View
+from depal.ports.trajectory import Trajectory
+
+__all__ = [
+    "Arm",
+    "BarcodeReader",
+    "Bays",
+    "Camera",
+    "Clock",
+    "Frame",
+    "Gripper",
+    "Guard",
+    "Movement",
+    "Person",
+    "Question",
+    "Safety",
+    "SafetyState",
+    "Sight",
+    "StoreSystem",
+    "Trajectory",
+    "View",
+]
