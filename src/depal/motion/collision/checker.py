@@ -1,5 +1,6 @@
 """The collision check of one motion: who moves, what is held, what stands around."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +12,14 @@ from depal.motion.collision.checking import (
     FREE,
     HAND,
     ITSELF,
+    TILT,
     Case,
     Margins,
     edge_is_free,
     first_hit,
     first_hit_along,
 )
+from depal.geometry import Vector3
 from depal.motion.collision.values import Arm, Array, Hand, Scene, arm_of
 from depal.motion.kinematics import Kinematics
 
@@ -45,11 +48,32 @@ class Body:
         return cls(Kinematics(layout.robot), arm_of(layout.robot), np.array([x0, y0, x1, y1]))
 
 
+@dataclass(frozen=True, slots=True)
+class Upright:
+    """A held box is not to be tilted.
+
+    Attributes:
+        up: the direction in the flange's frame that points up when it stands.
+        tilt: how far it may lean [rad].
+    """
+
+    up: Vector3
+    tilt: float
+
+
 class Checker:
     """Checks configurations and paths; conservative: it may refuse, it never misses."""
 
-    def __init__(self, body: Body, hand: Hand, scene: Scene, margins: Margins) -> None:
+    def __init__(
+        self,
+        body: Body,
+        hand: Hand,
+        scene: Scene,
+        margins: Margins,
+        upright: Upright | None = None,
+    ) -> None:
         """For one hand in one scene."""
+        self._upright = upright
         self._body = body
         self._hand = hand
         self._scene = scene
@@ -63,12 +87,14 @@ class Checker:
             scene.pile,
             body.fence,
             margins,
+            np.array(upright.up if upright else (0.0, 0.0, 1.0)),
+            math.cos(upright.tilt) if upright else -2.0,
         )
         self.reach = reaches(body, hand)
 
     def with_margins(self, margins: Margins) -> "Checker":
         """The same with other margins."""
-        return Checker(self._body, self._hand, self._scene, margins)
+        return Checker(self._body, self._hand, self._scene, margins, self._upright)
 
     def free(self, joints: Array) -> bool:
         """Whether nothing is touched."""
@@ -101,6 +127,8 @@ class Checker:
             mover = "the tool"
         if what == FLOOR:
             return f"{mover} at the floor"
+        if what == TILT:
+            return "the held box leans too far"
         if what == FENCE:
             return f"{mover} at the fence"
         if what >= ITSELF:

@@ -18,6 +18,7 @@ from depal.motion.kinematics import link_frames
 FREE = -1
 FLOOR = 100_000
 FENCE = 100_001
+TILT = 100_002
 ITSELF = 200_000
 """What was hit is a scene's solid below FLOOR; ITSELF plus the capsule above."""
 
@@ -55,6 +56,8 @@ class Case(NamedTuple):
         pile: (n,) which of the scene's solids are cases.
         fence: (4,) smallest x, y and greatest x, y that anything may reach [m].
         margins: how far things stay apart.
+        up: (3,) the direction in the flange's frame that is to stay up.
+        upright: the cosine of the greatest tilt that is allowed; below -1 any is.
     """
 
     dims: Array
@@ -65,6 +68,8 @@ class Case(NamedTuple):
     pile: npt.NDArray[np.bool_]
     fence: Array
     margins: Margins
+    up: Array
+    upright: float
 
 
 @loop_kernel
@@ -235,6 +240,11 @@ def hits(
         hit: (2,) receives the part and what it hit.
     """
     link_frames(q, case.dims, frames)
+    if case.upright >= -1.0:
+        f = frames[6]
+        if f[2, 0] * case.up[0] + f[2, 1] * case.up[1] + f[2, 2] * case.up[2] < case.upright:
+            hit[0], hit[1] = HAND, TILT
+            return True
     for part in range(len(case.hand.centre)):
         _placed(frames[6], case.hand.centre[part], work[part, 0])
         _turned(frames[6], case.hand.rotation[part], work[part, 1:4])
