@@ -169,7 +169,7 @@ def test_everything_wrong_with_a_delivery_is_said_at_once(depal: Run, tmp_path: 
         (("study", "unload", "--deliveries", "dev-00"), "did you mean"),
         (("delivery", "check", "nowhere.json"), "nowhere.json"),
         (("schema", "delivry"), "did you mean 'delivery'?"),
-        (("schema",), "there is: delivery, requests"),
+        (("schema",), "there is: cell, delivery, requests"),
     ],
 )
 def test_bad_input_is_one_error_that_teaches(
@@ -197,7 +197,7 @@ def test_a_request_for_a_product_that_is_not_on_the_note_is_refused(
         assert "note" in err
 
 
-@pytest.mark.parametrize("name", ["delivery", "requests"])
+@pytest.mark.parametrize("name", ["cell", "delivery", "requests"])
 def test_a_schema_is_a_json_schema(depal: Run, name: str) -> None:
     """That other programs can use."""
     status, out, _ = depal("schema", name)

@@ -69,12 +69,13 @@ def _depal(
 
 @app.command()
 def schema(
-    name: Annotated[str, typer.Argument(help="delivery or requests")] = "",
+    name: Annotated[str, typer.Argument(help="cell, delivery or requests")] = "",
 ) -> None:
     """Print the JSON Schema of a format."""
-    from depal.logistics import delivery_schema, requests_schema  # noqa: PLC0415 - fast help
+    from depal.cell.files import cell_schema  # noqa: PLC0415 - fast help
+    from depal.logistics import delivery_schema, requests_schema  # noqa: PLC0415
 
-    schemas = {"delivery": delivery_schema, "requests": requests_schema}
+    schemas = {"cell": cell_schema, "delivery": delivery_schema, "requests": requests_schema}
     if name not in schemas:
         what = f"unknown format {name!r}" if name else "no format named"
         raise SettingError("depal schema", what, exists=did_you_mean(name, schemas))

@@ -14,6 +14,7 @@ _WANTED = {
     "string_type": "text",
     "float_type": "a number",
     "int_type": "a whole number",
+    "bool_type": "true or false",
     "tuple_type": "a list",
     "model_type": "an object",
     "finite_number": "a finite number",
