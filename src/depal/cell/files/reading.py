@@ -22,7 +22,7 @@ ENDINGS = (".yaml", ".yml")
 LIMIT = 1
 """No cell file is larger [MiB]."""
 
-SHIPPED = ("default",)
+SHIPPED = ("default", "roll_containers", "small_trolleys")
 """The cells that ship with the package; the first is the paper's."""
 
 
