@@ -15,7 +15,7 @@ from depal.geometry import Pose, Vector3
 from depal.ports import Trajectory
 from depal.simulation.cases import cases_of
 from depal.simulation.devices import SimulatedGripper
-from depal.simulation.holding import Break, CupGroup
+from depal.domain.cup_group import Break, CupGroup
 from depal.simulation.model import STEP
 from depal.simulation.world import World
 
