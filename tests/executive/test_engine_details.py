@@ -7,7 +7,7 @@ from worlds import STORE
 
 from depal.executive import conditions as c
 from depal.executive import events as ev
-from depal.executive.compiled import Compiler, Span
+from depal.executive.atoms import Atoms, Subject, filled, members, stand_ins
 from depal.executive.emphasis import EmphasisWeights, rank, resting_emphasis
 from depal.executive.engine import Call, Engine, Report, Step
 from depal.executive.events import Outcome
@@ -85,9 +85,31 @@ CONDITIONS: st.SearchStrategy[c.Condition] = st.recursive(
 BINDING = {"X": "x", "Y": "y"}
 
 
-def no_span(_: c.Lasting, __: c.Binding) -> Span:
-    """None of these conditions mentions time."""
-    raise AssertionError
+class Read:
+    """A condition, read once for all things."""
+
+    def __init__(self, condition: c.Condition, facts: dict[str, c.Value]) -> None:
+        """Reads it for stand-ins."""
+        self.atoms = Atoms(facts)
+        binding = dict(zip(("X", "Y"), stand_ins(2), strict=True))
+        self.formula, self.mentioned = self.atoms.read(condition, binding)
+
+    def subject(self, *things: str) -> Subject:
+        """Some things."""
+        return Subject(filled(self.atoms.words)(things), ())
+
+    def holds(self, *things: str) -> bool:
+        """Its value for them."""
+        true = 0
+        for number, atom in enumerate(self.atoms.found):
+            true |= atom.test(self.subject(*things)) << number
+        return self.formula(true)
+
+    def watches(self, *things: str) -> list[object]:
+        """What it is told of."""
+        subject = self.subject(*things)
+        atoms = [self.atoms.found[number] for number in members(self.mentioned)]
+        return [watch for atom in atoms for watch in atom.watches(subject)]
 
 
 @given(CONDITIONS, FACTS, st.sampled_from(KEYS), VALUES)
@@ -95,16 +117,14 @@ def test_a_grounded_condition_means_what_the_written_one_means(
     condition: c.Condition, facts: dict[str, c.Value], key: str, value: c.Value
 ) -> None:
     """Before and after any change, and whoever's value has changed was to be told of it."""
-    compiler = Compiler(facts, no_span)
-    test, watches = compiler.ground(condition, BINDING)
-    again, _ = compiler.ground(condition, {"X": "y", "Y": "x"})
-    before, old = test(), facts.get(key)
+    read = Read(condition, facts)
+    before, old = read.holds("x", "y"), facts.get(key)
     assert before is c.holds(condition, facts, BINDING, c.at_once)
     facts[key] = value
-    assert test() is c.holds(condition, facts, BINDING, c.at_once)
-    assert again() is c.holds(condition, facts, {"X": "y", "Y": "x"}, c.at_once)
-    if test() != before:
-        assert {key, (key, old), (key, value)} & set(watches)
+    assert read.holds("x", "y") is c.holds(condition, facts, BINDING, c.at_once)
+    assert read.holds("y", "x") is c.holds(condition, facts, {"X": "y", "Y": "x"}, c.at_once)
+    if read.holds("x", "y") != before:
+        assert {key, (key, old), (key, value)} & set(read.watches("x", "y"))
 
 
 @pytest.mark.parametrize("op", sorted(c.COMPARISONS))
@@ -116,19 +136,42 @@ def test_a_grounded_comparison_means_what_the_written_one_means(
     """Every operator, with numbers, names and nothing on the left."""
     fact = c.FactRef(c.Literal("x"), "p")
     condition = c.Compare(fact, op, c.Literal(right))
-    test, _ = Compiler({"x.p": left}, no_span).ground(condition, BINDING)
-    assert test() is c.holds(condition, {"x.p": left}, BINDING, c.at_once)
+    holds = Read(condition, {"x.p": left}).holds("x", "y")
+    assert holds is c.holds(condition, {"x.p": left}, BINDING, c.at_once)
 
 
 def test_a_comparison_with_one_value_is_not_told_of_others() -> None:
-    """So a thousand trees that wait for `kr60.at` do not all wake when it moves."""
+    """So a thousand trees that wait for `kr60.at` are not all looked at when it moves."""
     at = c.FactRef(c.Literal("kr60"), "at")
-    compiler = Compiler({}, no_span)
     for op in ("=", "!="):
-        _, watches = compiler.ground(c.Compare(at, op, c.Var("X")), BINDING)
-        assert watches == (("kr60.at", "x"),)
-    _, watches = compiler.ground(c.Compare(at, "<", c.Literal(2.0)), BINDING)
-    assert watches == ("kr60.at",)
+        assert Read(c.Compare(at, op, c.Var("X")), {}).watches("b1", "b2") == [("kr60.at", "b1")]
+    assert Read(c.Compare(at, "<", c.Literal(2.0)), {}).watches("b1", "b2") == ["kr60.at"]
+
+
+def test_only_facts_of_the_first_argument_are_a_trees_own() -> None:
+    """All others may be shared by a thousand trees; their atoms are watched while they matter."""
+    taken, full = c.FactRef(c.Var("X"), "p"), c.FactRef(c.Var("Y"), "p")
+    at = c.FactRef(c.Literal("kr60"), "at")
+    for condition, own in (
+        (c.Holds(taken), True),
+        (c.Compare(taken, "=", c.Var("Y")), True),
+        (c.Holds(full), False),
+        (c.Holds(at), False),
+        (c.Compare(taken, "=", full), False),
+        (c.Compare(at, "=", c.Var("X")), False),
+    ):
+        assert [atom.own for atom in Read(condition, {}).atoms.found] == [own]
+
+
+@given(CONDITIONS, CONDITIONS)
+def test_what_is_the_same_for_all_things_is_one_atom(one: c.Condition, two: c.Condition) -> None:
+    """Whichever condition mentions it, and under whichever name of a parameter."""
+    atoms = Atoms({})
+    x, y = stand_ins(2)
+    atoms.read(c.AllOf((one, two)), {"X": x, "Y": y})
+    before = len(atoms.found)
+    atoms.read(two, {"X": x, "Y": y})
+    assert len(atoms.found) == before
 
 
 # Time

@@ -146,9 +146,10 @@ def test_the_incremental_result_equals_a_full_sweep(name: str, seed: int) -> Non
         for tree in state.trees.values():
             for node, swept in zip(tree.nodes, state.standings(tree), strict=True):
                 assert node.gate == (swept.gate and tree.withdrawn is None)
-                if node.awake:
-                    assert node.holds_pre == swept.pre
-                    assert node.holds_post == swept.post
+                if tree.gates.awake >> node.node.index & 1:
+                    part = tree.plan.parts[node.node.index]
+                    assert part.pre(tree.true) == swept.pre
+                    assert part.post(tree.true) == swept.post
                 may_run = node.gate and node.node.concrete and node.attempt is None
                 if state.waiting.waits(node):
                     assert may_run

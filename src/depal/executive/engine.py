@@ -18,7 +18,6 @@ from depal.executive.events import Change, Outcome
 from depal.executive.nodes import Attempt, LiveTree
 from depal.executive.schema import FLAG, NUMBER, FactType, Repository
 from depal.executive.state import State
-from depal.executive.tree import ground
 
 TIMED_OUT = "its time is over"
 
@@ -224,8 +223,14 @@ class Engine:
             state.touched.clear()
             for number in touched:
                 tree = state.trees.get(number)
-                if tree is not None and _has_ended(tree):
-                    self._then(ev.Archived(at, number, tree.root.post()), events)
+                if tree is not None and self._has_ended(tree):
+                    self._then(ev.Archived(at, number, self.state.accomplished(tree.root)), events)
+
+    def _has_ended(self, tree: LiveTree) -> bool:
+        """Whether a tree is to be archived: accomplished or withdrawn, and nothing of it runs."""
+        if tree.running:
+            return False
+        return tree.withdrawn is not None or self.state.accomplished(tree.root)
 
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""
@@ -264,7 +269,7 @@ class Engine:
 
     def _allocations(self, calls: Sequence[Call], at: float, first: int) -> list[ev.Event]:
         for call in calls:
-            ground(self.repository, call.schema, call.args)  # refuses before anything changes
+            self.state.plan(call.schema, call.args)  # refuses before anything changes
         digest = self.repository.digest
         return [
             ev.Allocated(at, first + offset, call.schema, tuple(call.args), call.priority, digest)
@@ -312,11 +317,6 @@ class Engine:
             exists = did_you_mean(str(number), map(str, self.state.trees))
             raise TaskError("", [Problem("trees", f"no tree {number}", exists=exists)])
         return tree
-
-
-def _has_ended(tree: LiveTree) -> bool:
-    """Whether a tree is to be archived: its root is accomplished or withdrawn, nothing runs."""
-    return not tree.running and (tree.withdrawn is not None or tree.root.post())
 
 
 def fits(value: Value, kind: FactType) -> bool:

@@ -7,7 +7,6 @@ a restart that folds the journal agree, event by event.
 from collections.abc import Callable
 
 from depal.executive import events as ev
-from depal.executive.compiled import Span, Watch
 from depal.executive.conditions import Key, Value
 from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.evaluation import Evaluation
@@ -15,8 +14,10 @@ from depal.executive.events import Outcome
 from depal.executive.holdings import Holdings
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Cancel, Repository
+from depal.executive.spans import Span
 from depal.executive.timers import Timers
 from depal.executive.waiting import Waiting
+from depal.executive.watching import Watch
 
 FAULT, ATTEMPTS = "fault", "attempts"
 """Facts that the engine itself writes, where they are declared."""
@@ -133,7 +134,7 @@ class State(Evaluation):
         tree = self.trees[event.tree]
         tree.withdrawn = event.reason
         self.touched[tree.number] = None
-        self._regate(tree.root)
+        self._shut(tree)
 
     def _archive(self, event: ev.Archived) -> None:
         tree = self.trees[event.tree]
@@ -162,10 +163,10 @@ class State(Evaluation):
             if attempt.cancel is None and node.action.cancel is not Cancel.NEVER:
                 self.orphans[attempt.number] = attempt
 
-    def _task_opened(self, node: LiveNode) -> None:
+    def _keeper_opened(self, node: LiveNode) -> None:
         self.holdings.keep_again(node)
 
-    def _task_closed(self, node: LiveNode) -> None:
+    def _keeper_closed(self, node: LiveNode) -> None:
         self.holdings.stop_keeping(node)
 
     def _fact_emptied(self, key: Key) -> None:
@@ -191,7 +192,7 @@ class State(Evaluation):
         if isinstance(what, Span):
             if not what.users or what.since is None or what.value:
                 return True
-            return what.since + what.seconds != at
+            return what.elapsed_at() != at
         if isinstance(what, LiveNode):
             idle = what.gate and what.attempt is None and not what.faulted
             return not idle or what.retry_at != at or self.waiting.waits(what)
@@ -262,7 +263,7 @@ class State(Evaluation):
         self.touched[node.tree.number] = None
         self.holdings.give_back(event.attempt, node)
         self._change(event.facts)
-        succeeded = node.post()
+        succeeded = self.accomplished(node)
         if event.outcome is Outcome.UNKNOWN:
             self._raise_fault(node)
         elif succeeded:
