@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-Value = bool | float | str | None
+Value = bool | int | float | str | None
 """What a fact holds."""
 
 Key = str

@@ -130,7 +130,7 @@ class Engine:
 
     def prioritise(self, tree: int, priority: float, at: float) -> Step:
         """Gives a tree another priority."""
-        return self._commit([ev.Prioritised(at, self._tree(tree).number, priority)], at)
+        return self._commit([ev.Prioritised(at, self._tree(tree).number, float(priority))], at)
 
     def withdraw(self, tree: int, reason: str, at: float) -> Step:
         """Ends a tree that is no longer wanted, once nothing of it runs."""
@@ -272,7 +272,9 @@ class Engine:
             self.state.plan(call.schema, call.args)  # refuses before anything changes
         digest = self.repository.digest
         return [
-            ev.Allocated(at, first + offset, call.schema, tuple(call.args), call.priority, digest)
+            ev.Allocated(
+                at, first + offset, call.schema, tuple(call.args), float(call.priority), digest
+            )
             for offset, call in enumerate(calls)
         ]
 
