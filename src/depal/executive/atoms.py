@@ -5,7 +5,7 @@ of atoms that are true, the same for every tree of the task; a tree only knows w
 atoms look at. What was worked out for a set once holds for all trees.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from depal.executive.conditions import (
@@ -44,10 +44,12 @@ class Subject:
     Attributes:
         words: the facts that its atoms look at, and the things that they compare them with.
         spans: its time conditions.
+        watches: what each of its atoms has to be told of.
     """
 
-    words: tuple[str, ...]
-    spans: tuple[Span, ...]
+    words: Sequence[str]
+    spans: Sequence[Span]
+    watches: Sequence[Sequence[Watch]] = ()
 
 
 Test = Callable[[Subject], bool]
@@ -60,8 +62,8 @@ class Atom:
     Attributes:
         test: whether it is true of a subject now.
         watches: what it has to be told of.
-        own: whether it looks at nothing but facts of its task's first argument and at time. What
-            others look at may be shared by any number of trees.
+        own: whether all that it has to be told of is about its task's first argument, or time.
+            What others wait for may be shared by any number of trees.
     """
 
     test: Test
@@ -92,12 +94,16 @@ def _slot(text: str) -> tuple[int, str]:
     return int(number), rest
 
 
-def members(atoms: int) -> Iterator[int]:
+def members(numbers: int) -> Sequence[int]:
     """The elements of a set that is written as a number, in order."""
-    while atoms:
-        lowest = atoms & -atoms
-        yield lowest.bit_length() - 1
-        atoms ^= lowest
+    if not numbers & numbers - 1:  # none, or one, as is usual
+        return (numbers.bit_length() - 1,) if numbers else ()
+    found = []
+    while numbers:
+        lowest = numbers & -numbers
+        found.append(lowest.bit_length() - 1)
+        numbers ^= lowest
+    return found
 
 
 class Atoms:
@@ -172,10 +178,9 @@ class Atoms:
 
     def _facts_atom(self, atomic: Holds | Compare) -> Atom:
         watches = watches_of(atomic, {})
-        keys = [watch if isinstance(watch, str) else watch[0] for watch in watches]
         parts = [self._watch(watch) for watch in watches]
         test = self._set(atomic) if isinstance(atomic, Holds) else self._comparison(atomic)
-        own = all(_slot(key)[0] == 0 for key in keys)
+        own = all(map(_is_own, watches))
         return Atom(test, lambda subject: [part(subject) for part in parts], own)
 
     def _watch(self, watch: Watch) -> Callable[[Subject], Watch]:
@@ -214,6 +219,12 @@ class Atoms:
         if text not in self.words:
             self.words.append(text)
         return self.words.index(text)
+
+
+def _is_own(watch: Watch) -> bool:
+    """Whether a watch names the first argument: `Box.taken`, or `kr60.at` becoming Box."""
+    texts = (watch,) if isinstance(watch, str) else watch
+    return any(isinstance(text, str) and _slot(text)[0] == 0 for text in texts)
 
 
 def _time_atom(at: int) -> Atom:

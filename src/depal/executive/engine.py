@@ -7,6 +7,7 @@ events of the same transaction. The rim writes the events and only then carries 
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from depal.errors import Problem, TaskError, did_you_mean
 from depal.executive import events as ev
@@ -56,8 +57,7 @@ class Report:
     allocate: tuple[Call, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """What one input has led to.
 
     Attributes:
@@ -142,7 +142,7 @@ class Engine:
 
     def tick(self, at: float) -> Step:
         """Time has come; nothing happens where nothing was due."""
-        return self._commit([], at) if self._is_due(at) else Step((), ())
+        return self._commit([], at) if self.state.is_due(at) else Step((), ())
 
     def hold(self, source: str, at: float) -> Step:
         """Nothing starts any more; what runs goes on."""
@@ -188,14 +188,10 @@ class Engine:
 
     def _commit(self, events: Sequence[ev.Event], at: float) -> Step:
         # What was due before comes first, whether or not somebody ticked.
-        happened = [ev.Ticked(at), *events] if self._is_due(at) else events
+        happened = [ev.Ticked(at), *events] if self.state.is_due(at) else events
         self._apply(happened)
         followed, commands = self.consequences(at)
         return Step((*happened, *followed), tuple(commands))
-
-    def _is_due(self, at: float) -> bool:
-        due = self.state.next_timer()
-        return due is not None and due <= at
 
     def _apply(self, events: Iterable[ev.Event]) -> None:
         for event in events:
@@ -230,7 +226,7 @@ class Engine:
         """Whether a tree is to be archived: accomplished or withdrawn, and nothing of it runs."""
         if tree.running:
             return False
-        return tree.withdrawn is not None or self.state.accomplished(tree.root)
+        return tree.withdrawn is not None or tree.gates.accomplished & 1 == 1
 
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""

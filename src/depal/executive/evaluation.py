@@ -19,7 +19,7 @@ from depal.executive.plan import SHUT, Gates, Plan
 from depal.executive.schema import Action, Repository
 from depal.executive.spans import Span, Spans
 from depal.executive.tree import Standing, Tree, ground, sweep
-from depal.executive.watching import Watch, Watchers
+from depal.executive.watching import Move, Watchers
 
 
 class Evaluation:
@@ -161,11 +161,11 @@ class Evaluation:
 
     def _move(self, tree: LiveTree, gates: Gates) -> None:
         """The gates of a tree become others, and whom it concerns is told."""
-        moved = (tree.gates.open ^ gates.open) & tree.plan.noticed
+        moves = tree.plan.moves(tree.gates, gates)
         tree.gates = gates
-        for index in members(moved):
-            node, opened = tree.nodes[index], gates.open >> index & 1
-            if tree.plan.concrete >> index & 1:
+        for index, opened, concrete in moves:
+            node = tree.nodes[index]
+            if concrete:
                 (self._primitive_opened if opened else self._primitive_closed)(node)
             else:
                 (self._keeper_opened if opened else self._keeper_closed)(node)
@@ -179,57 +179,61 @@ class Evaluation:
         return found
 
     def _watch(self, tree: LiveTree, atoms: int) -> None:
+        watches = tree.subject.watches
         for number in members(atoms):
-            watches = tree.plan.atoms[number].watches(tree.subject)
-            self._watchers.watch(watches, (tree.number, number), tree)
+            self._watchers.watch(watches[number], (tree.number, number), tree)
         tree.watched |= atoms
 
     def _unwatch(self, tree: LiveTree, atoms: int) -> None:
+        watches = tree.subject.watches
         for number in members(atoms):
-            watches = tree.plan.atoms[number].watches(tree.subject)
-            self._watchers.unwatch(watches, (tree.number, number))
+            self._watchers.unwatch(watches[number], (tree.number, number))
         tree.watched &= ~atoms
 
     # Facts
 
     def _change(self, changes: Iterable[Change]) -> None:
         """Changes facts together, then evaluates what they can have changed."""
-        watches: dict[Watch, None] = {}
-        emptied: list[Key] = []
+        moves: list[Move] = []
+        facts = self.facts
         for key, value in changes:
-            before = self.facts.get(key)
+            before = facts.get(key)
             if before == value and type(before) is type(value):
                 continue
             if value is None:
-                self.facts.pop(key, None)
-                emptied.append(key)
+                del facts[key]
             else:
-                self.facts[key] = value
+                facts[key] = value
             self.changed_at[key] = self.now
-            watches[key] = watches[key, before] = watches[key, value] = None
-        if watches:
-            self._settle(watches)
-        for key in emptied:
-            self._fact_emptied(key)
+            moves.append(Move(key, before, value))
+        if moves:
+            self._settle(moves)
+            for key, _, after in moves:
+                if after is None:
+                    self._fact_emptied(key)
 
-    def _settle(self, watches: dict[Watch, None]) -> None:
-        todo: list[Watch] = list(watches) if self.spans else []
-        while todo:
-            # A time condition may stand inside another: inner ones first, then who waits.
-            spans = self.spans.concerned(todo)
-            todo = [span.key for span in spans if self._measure(span)]
-            watches.update(dict.fromkeys(todo))
+    def _settle(self, moves: list[Move]) -> None:
+        """Tests what changes of facts can have changed."""
+        if self.spans:
+            moves += self._measured(moves)
         turned: dict[LiveTree, int] = {}
-        for (_, number), tree in self._watchers.told(watches):
-            true = turned.get(tree, tree.true)
+        for (_, number), tree in self._watchers.told(moves):
+            true = turned.get(tree, tree.true) & ~(1 << number)
             if tree.plan.atoms[number].test(tree.subject):
-                turned[tree] = true | 1 << number
-            else:
-                turned[tree] = true & ~(1 << number)
+                true |= 1 << number
+            turned[tree] = true
         for tree, true in turned.items():
             if true != tree.true:
                 self.touched[tree.number] = None
                 self._turn(tree, true)
+
+    def _measured(self, moves: list[Move]) -> list[Move]:
+        """The time conditions that have another value, and those that stand around them."""
+        found: list[Move] = []
+        while moves:
+            moves = [Move(s.key) for s in self.spans.concerned(moves) if self._measure(s)]
+            found += moves
+        return found
 
     def _measure(self, span: Span) -> bool:
         """Brings a time condition up to date; whether its value has changed."""

@@ -23,6 +23,7 @@ class LiveNode:
         retry_at: not before then is it tried again [s].
         faulted: whether it has used up its retries.
         waiting_since: since when it could run and does not [s].
+        rank: what orders it among those that wait, the greatest first.
         ticket: which entry of a queue stands for it; others are stale.
     """
 
@@ -36,6 +37,7 @@ class LiveNode:
     retry_at: float = 0.0
     faulted: bool = False
     waiting_since: float = 0.0
+    rank: float = 0.0
     ticket: int = -1
 
     @property

@@ -9,7 +9,7 @@ time, and looked up from then on.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from depal.executive.atoms import Atoms, Formula, Subject, filled, stand_ins
+from depal.executive.atoms import Atoms, Formula, Subject, filled, members, stand_ins
 from depal.executive.conditions import Key, Lasting, Value, lasting_of
 from depal.executive.schema import Repository, Task
 from depal.executive.spans import Span
@@ -98,10 +98,13 @@ class Plan:
         self.noticed = self.concrete | sum(1 << node.index for node in keepers)
         self._words = filled(atoms.words)
         self._known: dict[int, Gates] = {}
+        self._moves: dict[tuple[int, int], list[tuple[int, bool, bool]]] = {}
 
     def subject(self, args: Sequence[str], spans: Sequence[Span]) -> Subject:
         """What the tree with these arguments and time conditions is about."""
-        return Subject(self._words(args), tuple(spans))
+        subject = Subject(self._words(args), spans)
+        subject.watches = [atom.watches(subject) for atom in self.atoms]
+        return subject
 
     def gates(self, true: int) -> Gates:
         """What the nodes are while exactly these atoms are true."""
@@ -110,6 +113,22 @@ class Plan:
             if len(self._known) >= ROOM:
                 self._known.clear()
             known = self._known[true] = self._worked_out(true)
+        return known
+
+    def moves(self, before: Gates, after: Gates) -> list[tuple[int, bool, bool]]:
+        """The gates that move and are noticed: the node, whether it opens, whether it is concrete.
+
+        Parents come before their children.
+        """
+        known = self._moves.get((before.open, after.open))
+        if known is None:
+            if len(self._moves) >= ROOM:
+                self._moves.clear()
+            known = [
+                (index, after.open >> index & 1 == 1, self.concrete >> index & 1 == 1)
+                for index in members((before.open ^ after.open) & self.noticed)
+            ]
+            self._moves[before.open, after.open] = known
         return known
 
     def _worked_out(self, true: int) -> Gates:

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from depal.executive.conditions import Binding, Facts, Key, Lasting, holds
-from depal.executive.watching import Watch, Watchers, atomics_of, watches_of
+from depal.executive.watching import Move, Watch, Watchers, atomics_of, watches_of
 
 SpanName = tuple[Lasting, frozenset[tuple[str, str]]]
 """A time condition and the things that it is about."""
@@ -100,9 +100,9 @@ class Spans:
                 del self._spans[span.name]
                 self._watchers.unwatch(span.watches, (0, span.number))
 
-    def concerned(self, watches: Iterable[Watch]) -> list[Span]:
+    def concerned(self, moves: Iterable[Move]) -> list[Span]:
         """The spans that changes concern, in the order of their making."""
-        return [span for _, span in self._watchers.told(watches)]
+        return [span for _, span in self._watchers.told(moves)]
 
     def since(self) -> dict[str, float]:
         """Since when the part of each holds, by its condition and things."""

@@ -17,7 +17,7 @@ from depal.executive.schema import Cancel, Repository
 from depal.executive.spans import Span
 from depal.executive.timers import Timers
 from depal.executive.waiting import Waiting
-from depal.executive.watching import Watch
+from depal.executive.watching import Move
 
 FAULT, ATTEMPTS = "fault", "attempts"
 """Facts that the engine itself writes, where they are declared."""
@@ -65,6 +65,10 @@ class State(Evaluation):
     def next_timer(self) -> float | None:
         """When the next `Ticked` is due [s]; None where nothing waits for time."""
         return self._timers.next()
+
+    def is_due(self, now: float) -> bool:
+        """Whether a `Ticked` is due."""
+        return self._timers.any_due(now)
 
     # Changing
 
@@ -199,14 +203,14 @@ class State(Evaluation):
         return self.attempts.get(what.number) is not what or what.deadline != at
 
     def _tick(self, _: ev.Ticked) -> None:
-        changed: dict[Watch, None] = {}
+        changed: list[Move] = []
         for what in self._timers.due(self.now):
             if isinstance(what, LiveNode):
                 self._wait(what)
             elif isinstance(what, Attempt):
                 self._late(what)
             elif self._measure(what):
-                changed[what.key] = None
+                changed.append(Move(what.key))
         if changed:
             self._settle(changed)
 
@@ -297,6 +301,5 @@ class State(Evaluation):
         return f"{node.node.args[0] if node.node.args else node.action.name}.{attribute}"
 
     def _write(self, node: LiveNode, attribute: str, value: Value) -> None:
-        key = self._own_key(node, attribute)
-        if attribute in self._own_facts and self.facts.get(key) != value:
-            self._change(((key, value),))
+        if attribute in self._own_facts:
+            self._change(((self._own_key(node, attribute), value),))

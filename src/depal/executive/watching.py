@@ -1,7 +1,7 @@
 """From a change of facts to whatever it can have changed, and nothing else."""
 
 from collections.abc import Iterable, Iterator
-from typing import Generic, TypeVar
+from typing import Final, Generic, NamedTuple, TypeVar
 
 from depal.executive.conditions import (
     AllOf,
@@ -30,41 +30,60 @@ Token = tuple[int, int]
 """Which of the watchers it is; they are told in the order of their tokens."""
 
 
+class Move(NamedTuple):
+    """A fact that has changed, and its values before and after."""
+
+    key: Key
+    before: Value = None
+    after: Value = None
+
+
+_ANY: Final = object()
+"""Stands for any value of a fact."""
+
+
 class Watchers(Generic[T]):
-    """An index from facts to who waits for them."""
+    """An index from facts to who waits for them: by key, then by value."""
 
     def __init__(self) -> None:
         """Nobody waits."""
-        self._index: dict[Watch, dict[Token, T]] = {}
+        self._index: dict[Key, dict[object, dict[Token, T]]] = {}
 
     def watch(self, watches: Iterable[Watch], token: Token, who: T) -> None:
         """Somebody is to be told of changes."""
-        index = self._index
         for watch in watches:
-            waiting = index.get(watch)
-            if waiting is None:
-                index[watch] = {token: who}
+            key, value = (watch, _ANY) if isinstance(watch, str) else watch
+            by_value = self._index.get(key)
+            if by_value is None:
+                self._index[key] = {value: {token: who}}
+            elif value in by_value:
+                by_value[value][token] = who
             else:
-                waiting[token] = who
+                by_value[value] = {token: who}
 
     def unwatch(self, watches: Iterable[Watch], token: Token) -> None:
         """Somebody is not to be told any more."""
-        index = self._index
         for watch in watches:
-            waiting = index.get(watch)
-            if waiting is not None:
-                waiting.pop(token, None)
-                if not waiting:
-                    del index[watch]
+            key, value = (watch, _ANY) if isinstance(watch, str) else watch
+            by_value = self._index[key]
+            waiting = by_value[value]
+            del waiting[token]
+            if not waiting:
+                del by_value[value]
+                if not by_value:
+                    del self._index[key]
 
-    def told(self, watches: Iterable[Watch]) -> list[tuple[Token, T]]:
+    def told(self, moves: Iterable[Move]) -> list[tuple[Token, T]]:
         """Everybody whom changes concern, in order."""
         found: dict[Token, T] = {}
-        get = self._index.get
-        for watch in watches:
-            waiting = get(watch)
-            if waiting:
-                found.update(waiting)
+        for key, before, after in moves:
+            by_value = self._index.get(key)
+            if by_value is None:
+                continue
+            for value in (_ANY, before, after):
+                waiting = by_value.get(value)
+                if waiting is not None:
+                    found.update(waiting)
         return sorted(found.items(), key=_token) if len(found) > 1 else list(found.items())
 
 
