@@ -3,6 +3,8 @@
 import json
 from typing import Any
 
+import msgspec
+
 from depal.errors import JournalError
 from depal.executive import events as ev
 from depal.executive.emphasis import EmphasisWeights
@@ -54,7 +56,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         JournalError: it was made with other task files, or by another version.
     """
     try:
-        body: dict[str, Any] = json.loads(text)
+        body = _read(text)
         if body["digest"] != repository.digest:
             message = (
                 f"the snapshot was made with other task files ({body['digest']}, now "
@@ -81,6 +83,14 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         message = f"the snapshot is of another version: {type(error).__name__}: {error}"
         raise JournalError(message) from error
     return state
+
+
+def _read(text: str) -> dict[str, Any]:
+    try:
+        body: dict[str, Any] = msgspec.json.decode(text)
+    except msgspec.DecodeError:
+        body = json.loads(text)  # half of a surrogate pair in a text is allowed in JSON
+    return body
 
 
 def _plant(state: State, tree: dict[str, Any]) -> None:

@@ -301,5 +301,8 @@ class State(Evaluation):
         return f"{node.node.args[0] if node.node.args else node.action.name}.{attribute}"
 
     def _write(self, node: LiveNode, attribute: str, value: Value) -> None:
-        if attribute in self._own_facts:
-            self._change(((self._own_key(node, attribute), value),))
+        if attribute not in self._own_facts:
+            return
+        key = self._own_key(node, attribute)
+        if self.facts.get(key) != value:
+            self._change(((key, value),))
