@@ -359,6 +359,10 @@ def test_a_time_condition_holds_after_its_time_without_a_break() -> None:
             lambda e: e.change([("arm.at", "b1")], "camera", 0.0),
             "camera: arm.at: 'arm' has no fact 'at'; there is: kr60",
         ),
+        (
+            lambda e: e.change([("b1.attempts", float("nan"))], "camera", 0.0),
+            "camera: b1.attempts: nan is no value for it; expected number",
+        ),
         (lambda e: e.withdraw(7, "x", 0.0), "trees: no tree 7; there is none"),
     ],
 )

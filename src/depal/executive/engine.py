@@ -13,11 +13,12 @@ from depal.errors import Problem, TaskError, did_you_mean
 from depal.executive import events as ev
 from depal.executive.arbitration import arbitrate
 from depal.executive.commands import Command, Probe, Start, Stop
-from depal.executive.conditions import Value, key_of
+from depal.executive.conditions import key_of
+from depal.executive.declared import Declared
 from depal.executive.emphasis import EmphasisWeights
 from depal.executive.events import Change, Outcome
 from depal.executive.nodes import Attempt, LiveTree
-from depal.executive.schema import FLAG, NUMBER, FactType, Repository
+from depal.executive.schema import Repository
 from depal.executive.state import State
 
 TIMED_OUT = "its time is over"
@@ -81,7 +82,7 @@ class Engine:
         """
         self.repository = repository
         self.state = State(repository, weights)
-        self._types = _types_by_attribute(repository)
+        self._declared = Declared(repository)
         self._uncontested = (0, -1, -1)
 
     # Inputs
@@ -106,7 +107,7 @@ class Engine:
             TaskError: a fact that is not declared, or a value of another kind.
         """
         changes = tuple(facts)
-        problems = [problem for change in changes if (problem := self._misfit(change))]
+        problems = [problem for change in changes if (problem := self._declared.misfit(change))]
         if problems:
             raise TaskError(source, problems)
         return self._commit([ev.Changed(at, changes, source)], at)
@@ -285,7 +286,7 @@ class Engine:
         if foreign:
             reason = f"changed facts that it does not declare: {', '.join(foreign)}"
             return (), Outcome.UNDECLARED, reason
-        wrong = [problem for change in report.facts if (problem := self._misfit(change))]
+        wrong = [problem for change in report.facts if (problem := self._declared.misfit(change))]
         if wrong:
             return (), Outcome.UNDECLARED, "; ".join(map(str, wrong))
         outcome = report.outcome
@@ -293,48 +294,9 @@ class Engine:
             outcome = Outcome.TIMEOUT
         return tuple(report.facts), outcome, report.reason
 
-    def _misfit(self, change: Change) -> Problem | None:
-        """What is wrong with a change, if anything."""
-        key, value = change
-        subject, _, attribute = key.rpartition(".")
-        by_subject = self._types.get(attribute)
-        if by_subject is None:
-            exists = did_you_mean(attribute, self._types)
-            return Problem(key, f"no fact is called {attribute!r}", exists=exists)
-        kind = by_subject.get(subject, by_subject.get(None))
-        if kind is None:
-            exists = did_you_mean(subject, (name for name in by_subject if name))
-            return Problem(key, f"{subject!r} has no fact {attribute!r}", exists=exists)
-        if not fits(value, kind):
-            return Problem(key, f"{value!r} is no value for it", " or ".join(kind.kinds))
-        return None
-
     def _tree(self, number: int) -> LiveTree:
         tree = self.state.trees.get(number)
         if tree is None:
             exists = did_you_mean(str(number), map(str, self.state.trees))
             raise TaskError("", [Problem("trees", f"no tree {number}", exists=exists)])
         return tree
-
-
-def fits(value: Value, kind: FactType) -> bool:
-    """Whether a value is of a declared type."""
-    if value is None:
-        return kind.optional or FLAG in kind.kinds
-    if isinstance(value, bool):
-        return FLAG in kind.kinds
-    if isinstance(value, int | float):
-        return NUMBER in kind.kinds
-    return any(name not in {FLAG, NUMBER} for name in kind.kinds)
-
-
-def _types_by_attribute(repository: Repository) -> dict[str, dict[str | None, FactType]]:
-    """Types by attribute, then by the thing that has it; None for any thing of a sort.
-
-    A subject with a capital is a sort, and the engine does not know which things are of it.
-    """
-    types: dict[str, dict[str | None, FactType]] = {}
-    for declaration in repository.facts.values():
-        subject = None if declaration.subject[:1].isupper() else declaration.subject
-        types.setdefault(declaration.attribute, {})[subject] = declaration.type
-    return types
