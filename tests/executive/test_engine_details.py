@@ -148,8 +148,8 @@ def test_a_comparison_with_one_value_is_not_told_of_others() -> None:
     assert Read(c.Compare(at, "<", c.Literal(2.0)), {}).watches("b1", "b2") == ["kr60.at"]
 
 
-def test_only_facts_of_the_first_argument_are_a_trees_own() -> None:
-    """All others may be shared by a thousand trees; their atoms are watched while they matter."""
+def test_only_what_names_the_first_argument_is_a_trees_own() -> None:
+    """All else may be shared by a thousand trees; such atoms are watched while they matter."""
     taken, full = c.FactRef(c.Var("X"), "p"), c.FactRef(c.Var("Y"), "p")
     at = c.FactRef(c.Literal("kr60"), "at")
     for condition, own in (
@@ -158,7 +158,10 @@ def test_only_facts_of_the_first_argument_are_a_trees_own() -> None:
         (c.Holds(full), False),
         (c.Holds(at), False),
         (c.Compare(taken, "=", full), False),
-        (c.Compare(at, "=", c.Var("X")), False),
+        (c.Compare(at, "=", c.Var("X")), True),
+        (c.Compare(at, "=", c.Var("Y")), False),
+        (c.Compare(at, "=", c.Literal("reader")), False),
+        (c.Compare(at, "=", taken), False),
     ):
         assert [atom.own for atom in Read(condition, {}).atoms.found] == [own]
 

@@ -128,6 +128,10 @@ def test_only_shared_facts_that_matter_are_watched() -> None:
     assert len(told_of([Move("kr60.at", None, "b7")])) == 1
     assert not told_of([Move("kr60.at", None, "reader")])
     engine.change([("b7.taken", True), ("b7.target", "p1")], "world", 1.0)
-    assert len(told_of([Move("kr60.at", "b7", None)])) == 1
+    assert len(told_of([Move("kr60.at", None, "reader")])) == 2  # at the reader, at the target
+    engine.change([("b7.known", True)], "world", 1.0)
+    assert len(told_of([Move("kr60.at", None, "reader")])) == 1
+    engine.change([("b7.taken", False)], "world", 1.0)
+    assert not told_of([Move("kr60.at", None, "reader")])
     engine.withdraw(8, "no longer wanted", 2.0)
     assert not told_of([Move("kr60.at", "b7", None), Move("b7.taken")])

@@ -1,4 +1,4 @@
-"""Conditions over facts: as written, grounded in names, compiled, explained.
+"""Conditions over facts: as written, grounded in names, explained.
 
 A fact's value is a flag, a number, a text, the name of a thing, or None where it is empty. The
 world is closed: what is not set is false, and no comparison with it holds.

@@ -49,8 +49,8 @@ class Span:
 class Spans:
     """Time conditions, kept while a tree mentions them.
 
-    They are watched all the time, also where a closed gate lets nodes sleep: how long a part
-    has held does not depend on who looks.
+    They are watched all the time, also where nobody needs them: how long a part has held does
+    not depend on who looks.
     """
 
     def __init__(self, facts: Facts) -> None:
