@@ -718,3 +718,36 @@ def test_a_task_that_opens_again_keeps_what_it_still_uses() -> None:
     engine.report(grasp.number, Report((("b1.taken", True),)), 5.0)
     running = [attempt.node.node.label for attempt in engine.state.attempts.values()]
     assert running == ["kr60_show(b1)"]
+
+
+@pytest.mark.parametrize(("order", "gets_the_arm"), [("before", "held"), ("after", "other")])
+def test_who_is_to_go_on_with_a_held_box_is_allocated_before_its_task_is_withdrawn(
+    order: str, gets_the_arm: str
+) -> None:
+    """A withdrawn task lets the arm go at once, whatever the gripper holds."""
+    engine = Engine(
+        tasks(
+            """
+task first(Box) until Box.b keeps hand
+  - grab(Box)
+  - put(Box)  when Box.a
+task instead(Box) until Box.c keeps hand
+  - lay(Box)  when Box.a
+action grab(Box) until Box.a uses hand sets Box.a
+action put(Box) until Box.b uses hand sets Box.b, Box.a
+action lay(Box) until Box.c uses hand sets Box.c, Box.a
+"""
+        )
+    )
+    engine.allocate([Call("first", ("held",)), Call("first", ("other",))], 0.0)
+    end(engine, "grab(held)", Outcome.DONE, 1.0, "held.a")
+    end(engine, "put(held)", Outcome.FAILED, 2.0)
+    assert running(engine) == []
+    instead = [Call("instead", ("held",), 1000.0)]
+    if order == "before":
+        assert kinds(engine.allocate(instead, 3.0)) == ["Allocated"]
+    engine.withdraw(1, "it cannot be put there", 3.0)
+    if order == "after":
+        engine.allocate(instead, 3.0)
+    (attempt,) = engine.state.attempts.values()
+    assert attempt.node.node.args == (gets_the_arm,)

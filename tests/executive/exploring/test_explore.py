@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from depal.errors import TaskError
-from depal.executive.exploring import Exploration, Hazard, HazardKind, explore
+from depal.executive.exploring import Exploration, Hazard, HazardKind, explore, together
 from depal.executive.exploring.model import Model
 from depal.executive.exploring.moves import Moves, Rules, State
 from depal.executive.language import parse, read_tasks
@@ -287,3 +287,46 @@ def test_the_store_is_explored_within_its_time() -> None:
     start = time.perf_counter()
     assert explore(repository, "store", ["b1"]).complete
     assert time.perf_counter() - start < 3.0
+
+
+def test_two_stores_at_once_share_the_arm() -> None:
+    """No dead end, no livelock, no fact that two may set at once; either may be the first."""
+    repository, labels = together(read_tasks(STORE), [("store", ["b1"]), ("store", ["b2"])])
+    found = explore(repository, "together", labels)
+    assert found.task == "together(store(b1), store(b2))"
+    assert found.complete
+    assert not found.hazards
+    assert not found.idle
+    assert found.states > 20 * explore(read_tasks(STORE), "store", ["b1"]).states
+
+
+def test_two_that_keep_what_the_other_needs_block_each_other() -> None:
+    """Each alone is without fault."""
+    text = """
+task left(Box) until Box.a keeps arm
+  - first(Box)
+  - second(Box)  when Box.b
+task right(Box) until Box.done keeps hand
+  - third(Box)
+  - fourth(Box)  when Box.floor
+action first(Box) until Box.b uses arm sets Box.b
+action second(Box) until Box.a uses arm, hand sets Box.a
+action third(Box) until Box.floor uses hand sets Box.floor
+action fourth(Box) until Box.done uses arm, hand sets Box.done
+"""
+    repository = parse(FACTS + text, "test.task")
+    for name in ("left", "right"):
+        assert not explore(repository, name, ["b1"]).hazards
+    both, labels = together(repository, [("left", ["b1"]), ("right", ["b1"])])
+    (hazard,) = explore(both, "together", labels).hazards
+    assert hazard.kind is HazardKind.DEAD_END
+    assert [one.what for one in hazard.trace if "starts" in one.what] == [
+        "first(b1) starts",
+        "third(b1) starts",
+    ]
+
+
+def test_what_cannot_be_called_cannot_be_called_together() -> None:
+    """The same sentences."""
+    with pytest.raises(TaskError, match=r"unknown task 'stroe'; did you mean 'store'\?"):
+        together(read_tasks(STORE), [("store", ["b1"]), ("stroe", ["b2"])])
