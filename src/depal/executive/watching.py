@@ -62,16 +62,22 @@ class Watchers(Generic[T]):
                 by_value[value] = {token: who}
 
     def unwatch(self, watches: Iterable[Watch], token: Token) -> None:
-        """Somebody is not to be told any more."""
+        """Somebody is not to be told any more; a watch may occur twice."""
         for watch in watches:
             key, value = (watch, _ANY) if isinstance(watch, str) else watch
-            by_value = self._index[key]
-            waiting = by_value[value]
-            del waiting[token]
+            by_value = self._index.get(key)
+            waiting = None if by_value is None else by_value.get(value)
+            if by_value is None or waiting is None:
+                continue
+            waiting.pop(token, None)
             if not waiting:
                 del by_value[value]
                 if not by_value:
                     del self._index[key]
+
+    def __len__(self) -> int:
+        """How many facts somebody waits for."""
+        return len(self._index)
 
     def told(self, moves: Iterable[Move]) -> list[tuple[Token, T]]:
         """Everybody whom changes concern, in order."""
