@@ -397,8 +397,10 @@ def test_a_fault_whose_tree_has_ended_starts_nothing_when_it_is_cleared() -> Non
     engine = Engine(tasks(_SOFT.replace("retries 2", "retries 0")))
     engine.allocate([Call("soft", ("b1",))], 0.0)
     end(engine, "soft(b1)", Outcome.FAILED, 1.0)
+    assert len(engine.state.faults) == 1
     engine.withdraw(1, "enough", 2.0)
     assert engine.state.trees == {}
+    assert len(engine.state.faults) == 0
     step = engine.change([("b1.fault", None)], "person", 3.0)
     assert kinds(step) == ["Changed"]
     assert not engine.state.waiting

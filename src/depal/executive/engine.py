@@ -220,14 +220,8 @@ class Engine:
             state.touched.clear()
             for number in touched:
                 tree = state.trees.get(number)
-                if tree is not None and self._has_ended(tree):
+                if tree is not None and tree.ended:
                     self._then(ev.Archived(at, number, self.state.accomplished(tree.root)), events)
-
-    def _has_ended(self, tree: LiveTree) -> bool:
-        """Whether a tree is to be archived: accomplished or withdrawn, and nothing of it runs."""
-        if tree.running:
-            return False
-        return tree.withdrawn is not None or tree.gates.accomplished & 1 == 1
 
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""

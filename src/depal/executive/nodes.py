@@ -90,6 +90,13 @@ class LiveTree:
         """The allocated task itself."""
         return self.nodes[0]
 
+    @property
+    def ended(self) -> bool:
+        """Whether it is to be archived: accomplished or withdrawn, and nothing of it runs."""
+        if self.running:
+            return False
+        return self.withdrawn is not None or self.gates.accomplished & 1 == 1
+
 
 @dataclass(slots=True, eq=False)
 class Attempt:

@@ -7,7 +7,7 @@ import msgspec
 
 from depal.errors import JournalError
 from depal.executive import events as ev
-from depal.executive.emphasis import EmphasisWeights
+from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Repository
 from depal.executive.state import State
@@ -72,7 +72,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
             _plant(state, tree)
         for number, tree, node, started, deadline, cancel, in_doubt in body["attempts"]:
             at = state.trees[tree].nodes[node]
-            state.adopt(Attempt(number, at, started, deadline, cancel, in_doubt))
+            _adopt(state, Attempt(number, at, started, deadline, cancel, in_doubt))
         for name, tree, node in body["keepers"]:
             state.holdings.keep(name, state.trees[tree].nodes[node])
         state.held, state.next_tree = body["held"], body["next_tree"]
@@ -107,6 +107,31 @@ def _plant(state: State, tree: dict[str, Any]) -> None:
     planted = state.trees[tree["number"]]
     for index, failures, retry_at, faulted, since in tree["nodes"]:
         node: LiveNode = planted.nodes[index]
-        state.recall(node, failures, retry_at, since, faulted=faulted)
+        node.failures, node.retry_at = failures, retry_at
+        _recall(state, node, since, faulted=faulted)
     if tree["withdrawn"] is not None:
         state.apply(ev.Withdrawn(state.now, planted.number, tree["withdrawn"]))
+
+
+def _recall(state: State, node: LiveNode, since: float, *, faulted: bool) -> None:
+    """A node waits again as it did, or for its fault to be cleared."""
+    state.waiting.drop(node)
+    if faulted:
+        state.faults.add(node)
+    elif node.gate:
+        state.wait(node)
+    node.waiting_since = since
+    if state.waiting.waits(node):
+        state.waiting.put(node, rank(node, state.weights))
+
+
+def _adopt(state: State, attempt: Attempt) -> None:
+    """Gives a node back the attempt that ran."""
+    node = attempt.node
+    state.waiting.drop(node)
+    state.attempts[attempt.number] = attempt
+    node.attempt = attempt.number
+    node.tree.running[attempt.number] = node
+    state.holdings.use(attempt.number, node)
+    if attempt.deadline is not None:
+        state.set_deadline(attempt, attempt.deadline)

@@ -11,6 +11,7 @@ from depal.executive.conditions import Key, Value
 from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.evaluation import Evaluation
 from depal.executive.events import Outcome
+from depal.executive.faults import ATTEMPTS, FAULT, Faults, own_key
 from depal.executive.holdings import Holdings
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Cancel, Repository
@@ -18,9 +19,6 @@ from depal.executive.spans import Span
 from depal.executive.timers import Timers
 from depal.executive.waiting import Waiting
 from depal.executive.watching import Move
-
-FAULT, ATTEMPTS = "fault", "attempts"
-"""Facts that the engine itself writes, where they are declared."""
 
 CANCEL_GRACE = 10.0
 """So long may an attempt take to stop before that is a fault [s]."""
@@ -34,6 +32,7 @@ class State(Evaluation):
         attempts: what runs, by number.
         waiting: what may run and does not.
         holdings: who uses what.
+        faults: what is not tried again until somebody clears its fault.
         held: whether nothing may start.
         next_tree: the number of the next tree.
         next_attempt: the number of the next attempt.
@@ -53,7 +52,7 @@ class State(Evaluation):
         self.next_attempt = 1
         self.orphans: dict[int, Attempt] = {}
         self.overdue: dict[int, Attempt] = {}
-        self._faulted: dict[Key, list[LiveNode]] = {}
+        self.faults = Faults()
         self._timers: Timers[Span | LiveNode | Attempt] = Timers(self._is_stale)
         self._fold = self._folders()
         self._own_facts = {
@@ -101,33 +100,6 @@ class State(Evaluation):
         for attempt in self.attempts.values():
             self._doubt(attempt)
 
-    # Recalling a snapshot
-
-    def recall(
-        self, node: LiveNode, failures: int, retry_at: float, since: float, *, faulted: bool
-    ) -> None:
-        """Gives a node back what a snapshot kept of it."""
-        node.failures, node.retry_at, node.faulted = failures, retry_at, faulted
-        self.waiting.drop(node)
-        if faulted:
-            self._faulted.setdefault(self._own_key(node, FAULT), []).append(node)
-        elif node.gate:
-            self._wait(node)
-        node.waiting_since = since
-        if self.waiting.waits(node):
-            self.waiting.put(node, rank(node, self.weights))
-
-    def adopt(self, attempt: Attempt) -> None:
-        """Gives a node back the attempt that ran."""
-        node = attempt.node
-        self.waiting.drop(node)
-        self.attempts[attempt.number] = attempt
-        node.attempt = attempt.number
-        node.tree.running[attempt.number] = node
-        self.holdings.use(attempt.number, node)
-        if attempt.deadline is not None:
-            self._timers.set(attempt.deadline, attempt)
-
     # Trees
 
     def _allocate(self, event: ev.Allocated) -> None:
@@ -142,9 +114,8 @@ class State(Evaluation):
 
     def _archive(self, event: ev.Archived) -> None:
         tree = self.trees[event.tree]
+        self.faults.forget(tree)
         self._uproot(tree)
-        for nodes in self._faulted.values():
-            nodes[:] = [node for node in nodes if node.tree is not tree]
 
     def _prioritise(self, event: ev.Prioritised) -> None:
         tree = self.trees[event.tree]
@@ -158,7 +129,7 @@ class State(Evaluation):
     def _primitive_opened(self, node: LiveNode) -> None:
         if node.attempt is not None:
             self.orphans.pop(node.attempt, None)
-        self._wait(node)
+        self.wait(node)
 
     def _primitive_closed(self, node: LiveNode) -> None:
         self.waiting.drop(node)
@@ -174,13 +145,14 @@ class State(Evaluation):
         self.holdings.stop_keeping(node)
 
     def _fact_emptied(self, key: Key) -> None:
-        for node in self._faulted.pop(key, ()):
+        for node in self.faults.cleared(key):
             self._forgive(node)
 
     def _call_at(self, at: float, span: Span) -> None:
         self._timers.set(at, span)
 
-    def _wait(self, node: LiveNode) -> None:
+    def wait(self, node: LiveNode) -> None:
+        """A primitive may run, unless it runs already or must not be tried again yet."""
         if node.attempt is not None or node.faulted:
             return
         if node.retry_at > self.now:
@@ -206,7 +178,7 @@ class State(Evaluation):
         changed: list[Move] = []
         for what in self._timers.due(self.now):
             if isinstance(what, LiveNode):
-                self._wait(what)
+                self.wait(what)
             elif isinstance(what, Attempt):
                 self._late(what)
             elif self._measure(what):
@@ -218,9 +190,10 @@ class State(Evaluation):
         action = attempt.node.action
         attempt.in_doubt = not action.idempotent
         if action.timeout is not None:
-            self._set_deadline(attempt, self.now + action.timeout)
+            self.set_deadline(attempt, self.now + action.timeout)
 
-    def _set_deadline(self, attempt: Attempt, at: float) -> None:
+    def set_deadline(self, attempt: Attempt, at: float) -> None:
+        """An attempt is to end until a moment [s]."""
         attempt.deadline = at
         self._timers.set(at, attempt)
 
@@ -245,7 +218,7 @@ class State(Evaluation):
         self.waiting.drop(node)
         self.holdings.take(event.attempt, node)
         if action.timeout is not None:
-            self._set_deadline(attempt, self.now + action.timeout)
+            self.set_deadline(attempt, self.now + action.timeout)
 
     def _ask_to_stop(self, event: ev.CancelAsked) -> None:
         attempt = self.attempts[event.attempt]
@@ -255,7 +228,7 @@ class State(Evaluation):
         if attempt.node.action.cancel is Cancel.NEVER:
             self._raise_fault(attempt.node)
         else:
-            self._set_deadline(attempt, self.now + CANCEL_GRACE)
+            self.set_deadline(attempt, self.now + CANCEL_GRACE)
 
     def _end(self, event: ev.Ended) -> None:
         attempt = self.attempts.pop(event.attempt)
@@ -276,7 +249,7 @@ class State(Evaluation):
         elif event.outcome not in {Outcome.CANCELLED, Outcome.PROBED}:
             self._fail(node)
         if node.gate:
-            self._wait(node)
+            self.wait(node)
 
     def _fail(self, node: LiveNode) -> None:
         node.failures += 1
@@ -287,22 +260,18 @@ class State(Evaluation):
             node.retry_at = self.now + node.action.backoff * 2 ** (node.failures - 1)
 
     def _raise_fault(self, node: LiveNode) -> None:
-        node.faulted = True
+        self.faults.add(node)
         self.waiting.drop(node)
-        self._faulted.setdefault(self._own_key(node, FAULT), []).append(node)
         self._write(node, FAULT, node.action.name)
 
     def _forgive(self, node: LiveNode) -> None:
         node.faulted, node.failures, node.retry_at = False, 0, 0.0
         if node.gate:
-            self._wait(node)
-
-    def _own_key(self, node: LiveNode, attribute: str) -> Key:
-        return f"{node.node.args[0] if node.node.args else node.action.name}.{attribute}"
+            self.wait(node)
 
     def _write(self, node: LiveNode, attribute: str, value: Value) -> None:
         if attribute not in self._own_facts:
             return
-        key = self._own_key(node, attribute)
+        key = own_key(node, attribute)
         if self.facts.get(key) != value:
             self._change(((key, value),))
