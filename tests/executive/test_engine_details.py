@@ -753,3 +753,48 @@ action lay(Box) until Box.c uses hand sets Box.c, Box.a
         engine.allocate(instead, 3.0)
     (attempt,) = engine.state.attempts.values()
     assert attempt.node.node.args == (gets_the_arm,)
+
+
+def test_who_waits_has_waited_since_its_own_gate_opened() -> None:
+    """What else moves in its tree does not make it younger."""
+    engine = Engine(
+        tasks(
+            """
+task both(Box) until Box.c
+  - left(Box)
+  - right(Box)  when Box.b
+action left(Box) until Box.a uses hand sets Box.a
+action right(Box) until Box.c uses belt sets Box.c
+"""
+        )
+    )
+    engine.hold("person", 0.0)
+    engine.allocate([Call("both", ("b1",))], 1.0)
+    _, left, right = engine.state.trees[1].nodes
+    for at, value in ((2.0, True), (3.0, False), (4.0, True)):
+        engine.change([("b1.b", value)], "world", at)
+        assert left.waiting_since == 1.0
+        assert engine.state.waiting.waits(right) is value
+    assert right.waiting_since == 4.0
+
+
+def test_a_success_below_a_closed_gate_forgets_the_failures_too() -> None:
+    """Its second failure in a row would be its last."""
+    engine = Engine(
+        tasks(
+            """
+task work(Box) when not Box.stop until Box.c
+  - do(Box)
+action do(Box) until Box.a uses hand sets Box.a cancel never retries 1
+"""
+        )
+    )
+    engine.allocate([Call("work", ("b1",))], 0.0)
+    end(engine, "do(b1)", Outcome.FAILED, 1.0)
+    engine.tick(2.0)
+    engine.change([("b1.stop", True)], "world", 3.0)
+    end(engine, "do(b1)", Outcome.DONE, 4.0, "b1.a")
+    engine.change([("b1.stop", None), ("b1.a", None)], "world", 5.0)
+    end(engine, "do(b1)", Outcome.FAILED, 6.0)
+    assert "b1.fault" not in engine.state.facts
+    assert engine.state.facts["b1.attempts"] == 1.0

@@ -12,6 +12,7 @@ from worlds import STORE, effect
 
 from depal.errors import TaskError
 from depal.executive import plan as plans
+from depal.executive.atoms import members
 from depal.executive.conditions import Value, at_once
 from depal.executive.engine import Call, Engine, Report
 from depal.executive.language import parse
@@ -135,3 +136,13 @@ def test_only_shared_facts_that_matter_are_watched() -> None:
     assert not told_of([Move("kr60.at", None, "reader")])
     engine.withdraw(8, "no longer wanted", 2.0)
     assert not told_of([Move("kr60.at", "b7", None), Move("b7.taken")])
+
+
+def test_all_that_names_the_first_argument_is_watched_all_the_time() -> None:
+    """A waiting store listens to its box; of the arm it hears when it comes to the box."""
+    engine = Engine(STORE)
+    engine.allocate([Call("store", (f"b{number}",)) for number in range(3)], 0.0)
+    for tree in list(engine.state.trees.values())[1:]:
+        own = [number for number, atom in enumerate(tree.plan.atoms) if atom.own]
+        assert len(own) == len(tree.plan.atoms) - 2
+        assert members(tree.watched) == own == members(tree.plan.own)
