@@ -798,3 +798,17 @@ action do(Box) until Box.a uses hand sets Box.a cancel never retries 1
     end(engine, "do(b1)", Outcome.FAILED, 6.0)
     assert "b1.fault" not in engine.state.facts
     assert engine.state.facts["b1.attempts"] == 1.0
+
+
+def test_a_snapshot_keeps_every_value_as_it_is() -> None:
+    """Whole numbers, halves of surrogate pairs, and the sign of zero."""
+    head = "fact Box.n : number?\nfact Box.t : text?\n"
+    engine = Engine(parse(head, "values"))
+    values = [1, 1.0, -0.0, 2**80, 1e300, "x", "\u00e4\u2713", '"', "\ud800"]
+    for number, value in enumerate(values):
+        key = f"b{number}.{'t' if isinstance(value, str) else 'n'}"
+        engine.change([(key, value)], "world", 1.5)
+        text = freeze(engine.state)
+        thawed = thaw(engine.repository, engine.state.weights, text)
+        assert repr(sorted(thawed.facts.items())) == repr(sorted(engine.state.facts.items()))
+        assert freeze(thawed) == text

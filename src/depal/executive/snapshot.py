@@ -46,7 +46,7 @@ def freeze(state: State) -> str:
         "keepers": [[name, *node.place] for name, node in state.holdings.kept()],
         "since": state.spans.since(),
     }
-    return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
+    return _written(body)
 
 
 def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
@@ -85,11 +85,18 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
     return state
 
 
+def _written(body: dict[str, Any]) -> str:
+    try:
+        return msgspec.json.encode(body, order="deterministic").decode()
+    except UnicodeEncodeError:  # half of a surrogate pair in a text is allowed in JSON
+        return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
+
+
 def _read(text: str) -> dict[str, Any]:
     try:
         body: dict[str, Any] = msgspec.json.decode(text)
     except msgspec.DecodeError:
-        body = json.loads(text)  # half of a surrogate pair in a text is allowed in JSON
+        body = json.loads(text)  # the same
     return body
 
 
