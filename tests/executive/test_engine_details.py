@@ -812,3 +812,26 @@ def test_a_snapshot_keeps_every_value_as_it_is() -> None:
         thawed = thaw(engine.repository, engine.state.weights, text)
         assert repr(sorted(thawed.facts.items())) == repr(sorted(engine.state.facts.items()))
         assert freeze(thawed) == text
+
+
+def test_a_time_condition_that_is_mentioned_twice_is_one() -> None:
+    """In a row, with others before and after it."""
+    engine = Engine(
+        tasks(
+            """
+task work(Box) until Box.c
+  - one(Box)  when Box.a for 1 s and not (Box.a for 1 s) or Box.a for 1 s
+  - two(Box)  when Box.b for 5 s and Box.a for 1 s
+action one(Box) until Box.c uses hand sets Box.c
+action two(Box) until Box.c uses belt sets Box.c
+"""
+        )
+    )
+    engine.change([("b1.a", True), ("b1.b", True)], "world", 0.0)
+    engine.allocate([Call("work", ("b1",))], 0.0)
+    engine.tick(1.0)
+    assert running(engine) == ["one(b1)"]
+    engine.tick(4.0)
+    assert running(engine) == ["one(b1)"]
+    engine.tick(5.0)
+    assert running(engine) == ["one(b1)", "two(b1)"]

@@ -131,8 +131,9 @@ class Atoms:
 
         `Subject.spans` has them in the order of their announcement.
         """
-        name = condition, frozenset(binding.items())
-        return self._spans.setdefault(name, len(self._spans)) == len(self._spans) - 1
+        count = len(self._spans)
+        self._spans.setdefault((condition, frozenset(binding.items())), count)
+        return len(self._spans) > count
 
     def read(self, condition: Condition, binding: Binding) -> tuple[Formula, int]:
         """A condition as a function of the true atoms, and the set of those that it mentions."""
