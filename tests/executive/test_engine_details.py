@@ -835,3 +835,25 @@ action two(Box) until Box.c uses belt sets Box.c
     assert running(engine) == ["one(b1)"]
     engine.tick(5.0)
     assert running(engine) == ["one(b1)", "two(b1)"]
+
+
+def test_a_keeper_goes_on_with_what_somebody_outside_has_reserved() -> None:
+    """Else the two would wait for each other: the one outside for the keeper's own resource."""
+    engine = Engine(
+        tasks(
+            """
+task keep(Box) until Box.c keeps hand
+  - hold(Box)
+  - pass(Box)  when Box.a
+action hold(Box) until Box.a uses hand sets Box.a
+action pass(Box) until Box.c uses hand, belt sets Box.c
+action occupy(Box) until Box.a uses arm sets Box.a
+action large(Box) until Box.b uses arm, belt sets Box.b
+"""
+        )
+    )
+    engine.allocate([Call("keep", ("b1",)), *(Call("occupy", (f"x{n}",)) for n in (1, 2))], 0.0)
+    engine.allocate([Call("large", ("b2",), 5.0)], 1.0)
+    assert running(engine) == ["hold(b1)", "occupy(x1)", "occupy(x2)"]
+    end(engine, "hold(b1)", Outcome.DONE, 2.0, "b1.a")
+    assert "pass(b1)" in running(engine)

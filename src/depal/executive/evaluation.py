@@ -32,7 +32,7 @@ class Evaluation:
         trees: what is allocated, by number.
         spans: the time conditions of the trees.
         now: the time of the last event [s].
-        touched: trees of which something has changed since somebody took them.
+        touched: trees that may have ended since somebody took them.
     """
 
     def __init__(self, repository: Repository) -> None:
@@ -125,7 +125,6 @@ class Evaluation:
     def _uproot(self, tree: LiveTree) -> None:
         """Takes a tree away."""
         self._shut(tree)
-        self.touched[tree.number] = None
         self.spans.release(tree.subject.spans)
         del self.trees[tree.number]
         tree.nodes.clear()  # they point back to it, and would be garbage for a collector only

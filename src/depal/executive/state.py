@@ -120,7 +120,6 @@ class State(Evaluation):
     def _prioritise(self, event: ev.Prioritised) -> None:
         tree = self.trees[event.tree]
         tree.priority = event.priority
-        self.touched[tree.number] = None
         for node in self.waiting.of_tree(tree.number):
             self.waiting.put(node, rank(node, self.weights))
 
@@ -214,7 +213,6 @@ class State(Evaluation):
         self.next_attempt = event.attempt + 1
         node.attempt = event.attempt
         node.tree.running[event.attempt] = node
-        self.touched[event.tree] = None
         self.waiting.drop(node)
         self.holdings.take(event.attempt, node)
         if action.timeout is not None:
