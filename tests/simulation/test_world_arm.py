@@ -15,7 +15,7 @@ from depal.simulation.devices import SimulatedArm, SimulatedSafety
 from depal.simulation.model import STEP
 from depal.simulation.world import World
 
-AWAY = radians(55, -102, 125, 60, 20, 30)
+AWAY = radians(-15, -102, 125, 60, 80, 30)
 CELL = layout()
 
 

@@ -2,45 +2,21 @@
 
 import math
 
-import mujoco
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from simulated_layouts import REACHING, delivery, layout, point_to_point
+from simulated_worlds import ALL, CELL, hanging, shifted, world_of
 
-from depal.domain import FRONT, LOWER, Joints
+from depal.domain import FRONT, LOWER
 from depal.executive.clock import LoopClock, run_simulated
 from depal.geometry import Pose, Vector3
-from depal.ports import Trajectory
-from depal.simulation.cases import cases_of
 from depal.simulation.devices import SimulatedGripper
 from depal.simulation.holding import Break, CupGroup
 from depal.simulation.model import STEP
 from depal.simulation.world import World
 
-CELL = layout()
 CUP = 85.0
-ALL = tuple(range(6))
-
-
-def hanging(
-    module: str,
-    size: Vector3,
-    mass: float,
-    cups: tuple[int, ...] = ALL,
-    shift: Vector3 = (0.0, 0.0, 0.0),
-) -> World:
-    """A world in which one box hangs on a module, its face in the plane of the cups."""
-    note = delivery(((0.4, 0.2, 0.0), size, mass))
-    world = World(CELL, cases_of(note, note.stack or (), CELL), joints=REACHING)
-    middle = (0.2 + size[0] / 2, 0.0, 0.0) if module == FRONT else (0.1, 0.0, -0.2 - size[2] / 2)
-    x, y, z = (a + b for a, b in zip(middle, shift, strict=True))
-    world.place_box(0, world.flange() @ Pose((x, y, z)))
-    world.suction.open_valves(tuple((module, cup) for cup in cups), -1.0)
-    assert world.suction.grip(world.now)
-    world.advance(0.2)
-    return world
 
 
 def load_until_it_breaks(
@@ -103,29 +79,9 @@ def test_a_box_of_20_kg_is_lost_by_an_acceleration_beyond_theory_and_by_no_less(
     limit = 6 * CUP / 20.0 - 9.81
     distance = 0.01
     seconds = math.sqrt(5.7735 * distance / rise)  # the peak of a fifth degree rise
-    start = np.array(REACHING)
-    height = _rates_upwards(world)
-    end = start + height * distance
-    world.begin(_through(start, end, seconds))
+    world.begin(shifted(world, (0, 0, distance), seconds))
     world.advance(world.now + seconds + 0.3)
     assert bool(world.broken) == (rise > limit)
-
-
-def _rates_upwards(world: World) -> np.ndarray:
-    """Rates of the joints at which the flange rises by 1 m/s without turning."""
-    mj, data = world.model.mj, world.data
-    jacobian, turning = np.zeros((3, mj.nv)), np.zeros((3, mj.nv))
-    mujoco.mj_jacBody(mj, data, jacobian, turning, int(world.model.tool_body))
-    both = np.vstack((jacobian[:, :6], turning[:, :6]))
-    return np.linalg.lstsq(both, np.array([0, 0, 1.0, 0, 0, 0]), rcond=1e-6)[0]
-
-
-def _through(start: np.ndarray, end: np.ndarray, seconds: float) -> Trajectory:
-    def joints(row: np.ndarray) -> Joints:
-        a, b, c, d, e, f = row.tolist()
-        return (a, b, c, d, e, f)
-
-    return point_to_point(joints(start), joints(end), seconds)
 
 
 @given(
@@ -196,8 +152,7 @@ def test_vacuum_stands_where_the_cups_lie_wholly_on_a_face(
     """Vacuum stands where the cups lie wholly on a face."""
 
     async def work() -> bool:
-        note = delivery(((0.4, 0.2, 0.0), (0.3, 0.3, 0.3), 5.0))
-        world = World(CELL, cases_of(note, note.stack or (), CELL), joints=REACHING)
+        world = world_of(((0.4, 0.2, 0.0), (0.3, 0.3, 0.3), 5.0))
         world.model.mj.opt.gravity[2] = 0.0
         x, y, z = shift
         world.place_box(0, world.flange() @ Pose((0.35 + x, y, z)))
