@@ -12,7 +12,7 @@ from depal.domain import FRONT, LOWER
 from depal.executive.clock import LoopClock, run_simulated
 from depal.geometry import Pose, Vector3
 from depal.simulation.devices import SimulatedGripper
-from depal.simulation.holding import Break, CupGroup
+from depal.domain.cup_group import Break, CupGroup
 from depal.simulation.model import STEP
 from depal.simulation.world import World
 

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.domain import Cup, Tool
-from depal.simulation.holding import Break, CupGroup
+from depal.domain.cup_group import Break, CupGroup
 from depal.simulation.model import STEP, WELDS, CellModel
 from depal.simulation.sealing import Solids, cups_in_cell, sealed
 
