@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from simulated_worlds import ALL, CELL, hanging, shifted, world_of
 
 from depal.domain import FRONT, LOWER
+from depal.domain.cup_group import Break, CupGroup
 from depal.executive.clock import LoopClock, run_simulated
 from depal.geometry import Pose, Vector3
 from depal.simulation.devices import SimulatedGripper
-from depal.domain.cup_group import Break, CupGroup
 from depal.simulation.model import STEP
 from depal.simulation.world import World
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from depal.simulation.holding import Break
+from depal.domain.cup_group import Break
 from depal.simulation.suction import Broken
 
 FALL = 0.03
