@@ -160,7 +160,7 @@ def delivery(
 
 def point_to_point(start: Joints, end: Joints, seconds: float) -> Trajectory:
     """A smooth joint motion of the fifth degree from rest to rest."""
-    u = np.linspace(0.0, 1.0, max(int(seconds / 0.02), 2) + 1)
+    u = np.linspace(0.0, 1.0, max(int(seconds / 0.01), 2) + 1)
     share = 10 * u**3 - 15 * u**4 + 6 * u**5
     rate = 30 * u**2 * (1 - u) ** 2 / seconds
     first, way = np.array(start), np.array(end) - np.array(start)

@@ -55,18 +55,16 @@ def test_a_shear_beyond_friction_breaks_the_hold() -> None:
     assert why is Break.SHEAR
 
 
-@pytest.mark.parametrize(("axis", "reach", "second"), [(1, 0.08, 0.00295), (2, 0.13, 0.00712)])
-def test_a_moment_that_lifts_an_edge_breaks_the_hold(
-    axis: int, reach: float, second: float
-) -> None:
+@pytest.mark.parametrize(("axis", "reach"), [(1, 0.08), (2, 0.13)])
+def test_a_moment_that_lifts_an_edge_breaks_the_hold(axis: int, reach: float) -> None:
     """A moment that lifts an edge breaks the hold."""
     world = hanging(FRONT, (0.1, 0.3, 0.3), 1.0)
     moment = [0.0, 0.0, 0.0]
-    moment[axis] = 50.0
+    moment[axis] = 80.0
     x, y, z = moment
     share, why = load_until_it_breaks(world, (0, 0, 0), (x, y, z))
     own = 9.81 * 0.05 if axis == 1 else 0.0
-    assert share * 50.0 + own == pytest.approx(6 * CUP * second / reach, rel=0.1)
+    assert share * 80.0 + own == pytest.approx(6 * CUP * reach, rel=0.1)
     assert why is Break.PEEL
 
 
@@ -77,7 +75,7 @@ def test_a_box_of_20_kg_is_lost_by_an_acceleration_beyond_theory_and_by_no_less(
     """A box of 20 kg is lost by an acceleration beyond theory and by no less."""
     world = hanging(LOWER, (0.35, 0.35, 0.1), 20.0)
     limit = 6 * CUP / 20.0 - 9.81
-    distance = 0.01
+    distance = 0.15
     seconds = math.sqrt(5.7735 * distance / rise)  # the peak of a fifth degree rise
     world.begin(shifted(world, (0, 0, distance), seconds))
     world.advance(world.now + seconds + 0.3)
