@@ -24,12 +24,13 @@ def load_until_it_breaks(
 ) -> tuple[float, Break]:
     """Loads the box with a growing force through the middle of the cups, in the cell's axes."""
     data, body, tool = world.data, world.model.box_bodies[0], world.model.tool_body
-    hold = world.suction.holds[0]
+    module = world.suction.holds[0].cups[0][0]
+    middle = np.array(CELL.tool.module(module).flange_from_face.translation)
     share = 0.0
     while not world.broken:
         share += 1 / 800
         push = share * np.array(force)
-        point = data.xpos[tool] + data.xmat[tool].reshape(3, 3) @ hold.middle
+        point = data.xpos[tool] + data.xmat[tool].reshape(3, 3) @ middle
         data.xfrc_applied[body, :3] = push
         data.xfrc_applied[body, 3:] = share * np.array(moment) + np.cross(
             point - data.xpos[body], push

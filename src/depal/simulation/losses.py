@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from depal.domain.cup_group import Break
-from depal.simulation.suction import Broken
+from depal.simulation.holds import Broken
 
 FALL = 0.03
 """A box that sank by more than this after its hold broke has fallen [m]."""

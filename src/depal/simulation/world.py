@@ -11,11 +11,12 @@ from depal.geometry import Pose
 from depal.ports.trajectory import Trajectory
 from depal.simulation.cases import Case
 from depal.simulation.contacts import ContactWatch
+from depal.simulation.holds import Broken
 from depal.simulation.losses import LossWatch
 from depal.simulation.model import ARM_DAMPING, ARM_STIFFNESS, STEP, build_model
 from depal.simulation.parts import BODY, SOLID
 from depal.simulation.servo import Motion, motion_along, stopped
-from depal.simulation.suction import TOUCH, Broken, SuctionState
+from depal.simulation.suction import TOUCH, SuctionState
 
 Floats = npt.NDArray[np.float64]
 
