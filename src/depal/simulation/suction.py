@@ -21,6 +21,9 @@ LEAK = 0.6
 IMPEDANCE = 0.5
 """Of the welds: with it a weld is a spring whose stiffness is the bellows' own."""
 
+DAMPING = 0.3
+"""Of a box on its bellows, as a share of the critical one."""
+
 STIFFEST = 2e4
 """The greatest stiffness of a weld by mass that 2 ms steps follow [1/s^2]."""
 
@@ -196,7 +199,7 @@ class SuctionState:
         mj.eq_data[weld, 10] = TURN_SCALE
         mass = float(mj.body_mass[body])
         k = min(stiffness * (1 - IMPEDANCE) / (IMPEDANCE * mass), STIFFEST)
-        mj.eq_solref[weld] = (-k, -2 * np.sqrt(k / IMPEDANCE))
+        mj.eq_solref[weld] = (-k, -2 * DAMPING * np.sqrt(k / IMPEDANCE))
         mj.eq_solimp[weld] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
         data.eq_active[weld] = 1
 

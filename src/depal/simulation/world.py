@@ -30,7 +30,7 @@ SETTLING = 3000
 """The stack gets this many steps to come to rest at the most."""
 
 G = 9.81
-LOAD_FILTER = 0.01
+LOAD_FILTER = 0.005
 """Time constant of the load cell [s]."""
 
 _STIFFNESS, _DAMPING = np.array(ARM_STIFFNESS), np.array(ARM_DAMPING)
