@@ -2,7 +2,8 @@
 
 import mujoco
 import numpy as np
-from simulated_layouts import REACHING, delivery, layout, point_to_point
+from scipy.interpolate import CubicSpline
+from simulated_layouts import REACHING, delivery, layout
 
 from depal.domain import FRONT, Joints
 from depal.geometry import Pose, Vector3
@@ -40,17 +41,26 @@ def hanging(
 
 
 def shifted(world: World, way: Vector3, seconds: float) -> Trajectory:
-    """A motion that carries the flange a short way, without turning it."""
-    mj, data = world.model.mj, world.data
-    jacobian, turning = np.zeros((3, mj.nv)), np.zeros((3, mj.nv))
-    mujoco.mj_jacBody(mj, data, jacobian, turning, int(world.model.tool_body))
-    both = np.vstack((jacobian[:, :6], turning[:, :6]))
-    step = np.linalg.lstsq(both, np.array([*way, 0, 0, 0]), rcond=1e-6)[0]
-    start, _ = world.wanted()
-    first, last = start.tolist(), (start + step).tolist()
-    return point_to_point(_joints(first), _joints(last), seconds)
+    """A motion that carries the flange along a straight line, without turning it."""
+    steps = max(int(np.linalg.norm(way) / 0.002), 5)
+    mj, data = world.model.mj, mujoco.MjData(world.model.mj)
+    path = [world.wanted()[0]]
+    for _ in range(steps):
+        path.append(path[-1] + _rates(mj, data, path[-1], int(world.model.tool_body), way) / steps)
+    u = np.linspace(0.0, 1.0, steps + 1)
+    share, rate = 10 * u**3 - 15 * u**4 + 6 * u**5, 30 * u**2 * (1 - u) ** 2 / seconds
+    line = CubicSpline(u, np.array(path))
+    return Trajectory(u * seconds, line(share), line(share, 1) * rate[:, None])
 
 
-def _joints(row: list[float]) -> Joints:
-    a, b, c, d, e, f = row
-    return (a, b, c, d, e, f)
+def _rates(
+    mj: mujoco.MjModel, data: mujoco.MjData, joints: np.ndarray, body: int, way: Vector3
+) -> np.ndarray:
+    """Rates of the axes at which the flange moves at `way` per second."""
+    data.qpos[:6] = joints
+    mujoco.mj_kinematics(mj, data)
+    mujoco.mj_comPos(mj, data)
+    moving, turning = np.zeros((3, mj.nv)), np.zeros((3, mj.nv))
+    mujoco.mj_jacBody(mj, data, moving, turning, body)
+    both = np.vstack((moving[:, :6], turning[:, :6]))
+    return np.linalg.lstsq(both, np.array([*way, 0, 0, 0]), rcond=1e-6)[0]

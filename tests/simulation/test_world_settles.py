@@ -31,7 +31,7 @@ def centres(world: World) -> np.ndarray:
 
 
 def test_a_settled_stack_stands_within_two_millimetres_of_the_delivery(world: World) -> None:
-    """A settled stack stands within two millimetres of the delivery."""
+    """Contacts give a little below 50 cases."""
     said = np.array([case.shape.centre for case in world.cases])
     assert len(said) >= 40
     assert np.abs(centres(world) - said).max() < 0.002
@@ -40,7 +40,7 @@ def test_a_settled_stack_stands_within_two_millimetres_of_the_delivery(world: Wo
 def test_a_settled_stack_that_is_kept_awake_drifts_less_than_a_millimetre_in_ten_seconds(
     world: World,
 ) -> None:
-    """A settled stack that is kept awake drifts less than a millimetre in ten seconds."""
+    """Asleep nothing could drift, so it is woken ten times a second."""
     before, steps = centres(world), world.steps
     for _ in range(100):
         world.refresh()  # nobody sleeps

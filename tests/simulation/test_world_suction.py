@@ -42,14 +42,14 @@ def load_until_it_breaks(
 
 
 def test_a_pull_beyond_area_times_vacuum_breaks_the_hold() -> None:
-    """A pull beyond area times vacuum breaks the hold."""
+    """The weight of the box pulls too."""
     world = hanging(LOWER, (0.3, 0.3, 0.2), 5.0)
     share, _ = load_until_it_breaks(world, (0, 0, -500))
     assert share * 500 + 5 * 9.81 == pytest.approx(6 * CUP, rel=0.1)
 
 
 def test_a_shear_beyond_friction_breaks_the_hold() -> None:
-    """A shear beyond friction breaks the hold."""
+    """The weight takes from the pressure that friction needs."""
     world = hanging(LOWER, (0.3, 0.3, 0.1), 8.0)
     share, why = load_until_it_breaks(world, (200, 100, 0))
     assert share * math.hypot(200, 100) == pytest.approx(0.5 * (6 * CUP - 8 * 9.81), rel=0.1)
@@ -58,7 +58,7 @@ def test_a_shear_beyond_friction_breaks_the_hold() -> None:
 
 @pytest.mark.parametrize(("axis", "reach"), [(1, 0.08), (2, 0.13)])
 def test_a_moment_that_lifts_an_edge_breaks_the_hold(axis: int, reach: float) -> None:
-    """A moment that lifts an edge breaks the hold."""
+    """The box tips about the lips' other edge."""
     world = hanging(FRONT, (0.1, 0.3, 0.3), 1.0)
     moment = [0.0, 0.0, 0.0]
     moment[axis] = 80.0
@@ -73,7 +73,7 @@ def test_a_moment_that_lifts_an_edge_breaks_the_hold(axis: int, reach: float) ->
 def test_a_box_of_20_kg_is_lost_by_an_acceleration_beyond_theory_and_by_no_less(
     rise: float,
 ) -> None:
-    """A box of 20 kg is lost by an acceleration beyond theory and by no less."""
+    """Upwards, hanging below the tool: 6 cups of 85 N hold 15.7 m/s^2."""
     world = hanging(LOWER, (0.35, 0.35, 0.1), 20.0)
     limit = 6 * CUP / 20.0 - 9.81
     distance = 0.15
@@ -93,7 +93,7 @@ def test_a_box_of_20_kg_is_lost_by_an_acceleration_beyond_theory_and_by_no_less(
 def test_more_vacuum_never_holds_less_and_more_load_never_holds_better(
     cups: list[tuple[float, float]], force: Vector3, moment: Vector3, more: float
 ) -> None:
-    """More vacuum never holds less and more load never holds better."""
+    """For any group of cups."""
     group = CupGroup.of(np.array(cups), 0.03, 0.5)
     vacuum = CUP * len(cups)
     push, turn = np.array(force), np.array(moment)
@@ -104,7 +104,7 @@ def test_more_vacuum_never_holds_less_and_more_load_never_holds_better(
 
 
 def test_the_load_cell_weighs_what_hangs() -> None:
-    """The load cell weighs what hangs."""
+    """Without bias, with a little noise."""
     world = hanging(FRONT, (0.3, 0.3, 0.3), 7.3)
     readings = [world.load() for _ in range(50)]
     assert np.mean(readings) == pytest.approx(7.3, abs=0.05)
@@ -112,14 +112,14 @@ def test_the_load_cell_weighs_what_hangs() -> None:
 
 
 def test_a_held_box_sags_less_than_a_millimetre_for_five_kilograms() -> None:
-    """A held box sags less than a millimetre for five kilograms."""
+    """Bellows of 10 N/mm each, six of them."""
     world = hanging(FRONT, (0.3, 0.3, 0.3), 5.0)
     sag = world.box(0).translation[2] - world.flange().translation[2]
     assert -0.001 < sag < 0.0
 
 
 def test_vacuum_rises_holds_and_is_gone_after_release() -> None:
-    """Vacuum rises holds and is gone after release."""
+    """And the box with it."""
 
     async def work() -> list[float]:
         world = hanging(FRONT, (0.3, 0.3, 0.3), 5.0)
@@ -148,7 +148,7 @@ def test_vacuum_rises_holds_and_is_gone_after_release() -> None:
 def test_vacuum_stands_where_the_cups_lie_wholly_on_a_face(
     shift: Vector3, cups: tuple[int, ...], *, expected: bool
 ) -> None:
-    """Vacuum stands where the cups lie wholly on a face."""
+    """Within the stroke of the bellows; open cups beside the face leak."""
 
     async def work() -> bool:
         world = world_of(((0.4, 0.2, 0.0), (0.3, 0.3, 0.3), 5.0))
@@ -162,7 +162,7 @@ def test_vacuum_stands_where_the_cups_lie_wholly_on_a_face(
 
 
 def test_a_broken_hold_leaks() -> None:
-    """A broken hold leaks."""
+    """The sensor, the load cell and the box tell of it."""
     world = hanging(FRONT, (0.3, 0.3, 0.3), 5.0)
     world.suction.detach(0, world.now)
     world.wake()

@@ -4,7 +4,7 @@ from depal.simulation.cases import Case, cases_of
 from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.contacts import Collision
 from depal.simulation.losses import Cause, Loss
-from depal.simulation.people import SimulatedPerson, name_of
+from depal.simulation.people import SimulatedPerson, index_of, name_of
 from depal.simulation.referee import Referee, Summary, Truth
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
@@ -26,6 +26,7 @@ __all__ = [
     "World",
     "build",
     "cases_of",
+    "index_of",
     "name_of",
     "stacked",
 ]

@@ -29,6 +29,13 @@ def name_of(index: int) -> BoxId:
     return BoxId(f"b{index + 1}")
 
 
+def index_of(name: str, boxes: int) -> int | None:
+    """The index of a box in a stack of so many by its name; None where there is no such box."""
+    number = name.removeprefix("b")
+    known = name.startswith("b") and number.isdecimal() and 0 < int(number) <= boxes
+    return int(number) - 1 if known else None
+
+
 class SimulatedPerson:
     """A worker who comes after a while and does what the answer promises.
 
@@ -89,10 +96,9 @@ class SimulatedPerson:
         self._world.show_storage(bay, trolley=f"{bay}#{self._trolleys + 1}")
 
     def _pick_up(self, name: str) -> None:
-        for case in self._world.cases:
-            known = name_of(case.index) == name
-            if known and self._referee.where(case.index) in {FLOOR, ELSEWHERE}:
-                self._take_away(case.index)
+        index = index_of(name, len(self._world.cases))
+        if index is not None and self._referee.where(index) in {FLOOR, ELSEWHERE}:
+            self._take_away(index)
 
     def _take_away(self, index: int) -> None:
         x, y = PARKING
