@@ -170,3 +170,30 @@ def test_a_broken_hold_leaks() -> None:
     assert world.suction.vacuum(world.now)[FRONT] == 0.0
     assert world.load() == pytest.approx(0.0, abs=0.06)
     assert world.box(0).translation[2] < 1.0
+
+
+def test_a_valve_that_is_stuck_does_not_let_go() -> None:
+    """A fault for the executive to notice: the sensor still reads a vacuum."""
+
+    async def work() -> dict[str, float]:
+        world = hanging(FRONT, (0.3, 0.3, 0.3), 5.0)
+        world.suction.stuck = True
+        gripper = SimulatedGripper(world, LoopClock())
+        await gripper.release()
+        assert world.suction.held_boxes == (0,)
+        return gripper.vacuum()
+
+    assert run_simulated(work(), start=0.2)[FRONT] == pytest.approx(CELL.tool.suction.vacuum)
+
+
+@pytest.mark.parametrize(("supply", "expected"), [(0.85, True), (0.7, False)])
+def test_a_weak_pump_is_noticed_below_four_fifths_of_the_vacuum(
+    supply: float, *, expected: bool
+) -> None:
+    """Though the box hangs."""
+    world = world_of(((0.4, 0.2, 0.0), (0.3, 0.3, 0.3), 2.0))
+    world.place_box(0, world.flange() @ Pose((0.35, 0.0, 0.0)))
+    world.suction.supply = supply
+    world.suction.open_valves(tuple((FRONT, cup) for cup in ALL), -1.0)
+    assert world.suction.grip(world.now) is expected
+    assert world.suction.held_boxes == (0,)

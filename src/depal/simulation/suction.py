@@ -35,7 +35,19 @@ TOUCH = 1e-9
 
 
 class SuctionState:
-    """Valves, vacuum and welds of the tool."""
+    """Valves, vacuum and welds of the tool.
+
+    Attributes:
+        model: the world's.
+        data: its state.
+        tool: the gripper.
+        folded: whether the lower module is up.
+        open: the cups with open valves, by module.
+        holds: what hangs on the tool, in the order of the welds.
+        let_go: whether a box was let go since the last step.
+        stuck: a fault: the valves do not vent.
+        supply: a fault where it is below 1: share of the full vacuum that the pump gives.
+    """
 
     def __init__(self, model: CellModel, data: mujoco.MjData) -> None:
         """All cups are vented, the lower module is down."""
@@ -45,6 +57,8 @@ class SuctionState:
         self.open: dict[str, tuple[int, ...]] = {}
         self.holds: list[Hold] = []
         self.let_go = False
+        self.stuck = False
+        self.supply = 1.0
         self._valves = {module.name: Valve() for module in self.tool.modules}
 
     def vacuum(self, now: float) -> dict[str, float]:
@@ -79,6 +93,8 @@ class SuctionState:
 
     def vent(self, now: float) -> None:
         """Shuts every valve and lets go of every box."""
+        if self.stuck:
+            return
         for hold in list(self.holds):
             self._let_go(hold)
         self.open = {}
@@ -119,7 +135,8 @@ class SuctionState:
     def _level(self, name: str, good: int) -> float:
         """The vacuum that a module will reach when so many of its open cups seal [Pa]."""
         bad = len(self.open.get(name, ())) - good
-        return self.tool.suction.vacuum * good / (good + LEAK * bad) if good else 0.0
+        full = self.tool.suction.vacuum * self.supply
+        return full * good / (good + LEAK * bad) if good else 0.0
 
     def _held_cups(self) -> set[Cup]:
         return {cup for hold in self.holds for cup in hold.cups}
