@@ -184,7 +184,7 @@ def test_shipped_deliveries_can_be_taken_by_every_shipped_cell(name: str) -> Non
             a_delivery((0.8, 0.8, 0.8)),
             (
                 "'12000823098180' tea: 0.8 x 0.8 x 0.8 m fits no opening; "
-                "the largest is shelf/level_3: 1.74 x 0.55, 0.67 m deep"
+                "the largest is shelf/level_2: 1.74 x 0.7, 0.67 m deep"
             ),
         ),
         (
