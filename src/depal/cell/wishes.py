@@ -1,7 +1,7 @@
 """The requests of a run: when each came, what served it, and what left before it."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 from depal.domain import BoxId, Gtin, Request
 
@@ -24,17 +24,19 @@ class Wish:
 
 
 class Wishes:
-    """Requests that arrive over time; each is served once, by one box."""
+    """Requests that arrive over time; each is served once, by one box, and a box serves one."""
 
     def __init__(self, requests: Sequence[Request]) -> None:
         """Nothing has left the pallet yet."""
         self._wishes = [Wish(request) for request in requests]
 
+    def __iter__(self) -> Iterator[Wish]:
+        """The wishes in the order in which they were given."""
+        return iter(tuple(self._wishes))
 
-    @property
-    def all(self) -> tuple[Wish, ...]:
-        """Every wish, in the order in which they were given."""
-        return tuple(self._wishes)
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self._wishes)
 
     def add(self, request: Request) -> None:
         """One more request."""
@@ -42,24 +44,44 @@ class Wishes:
 
     def open(self, now: float) -> tuple[Request, ...]:
         """The requests that have arrived and are not served."""
-        return tuple(
-            wish.request
-            for wish in self._wishes
-            if wish.served is None and wish.request.arrived <= now
-        )
+        return tuple(wish.request for _, wish in self._waiting(now))
 
     def left(self, box: BoxId, gtin: Gtin | None, now: float) -> None:
-        """A box has left the pallet: it serves the most important request that it can serve."""
-        fitting = [
-            number
-            for number, wish in enumerate(self._wishes)
-            if wish.served is None
-            and wish.request.arrived <= now
-            and (wish.request.box == box or (gtin is not None and wish.request.gtin == gtin))
-        ]
-        best = max(fitting, key=lambda n: (self._wishes[n].request.priority, -n), default=None)
-        for number, wish in enumerate(self._wishes):
+        """A box has left the pallet: it serves the most important request that it can serve.
+
+        Args:
+            box: which.
+            gtin: its product, None while nobody knows it; `identified` makes up for that.
+            now: the time [s].
+        """
+        best = self._best(box, gtin, now)
+        for number, wish in self._waiting(now):
             if number == best:
-                self._wishes[number] = Wish(wish.request, now, box, wish.boxes_before)
-            elif wish.served is None and wish.request.arrived <= now:
-                self._wishes[number] = Wish(wish.request, None, None, wish.boxes_before + 1)
+                self._wishes[number] = replace(wish, served=now, box=box)
+            else:
+                self._wishes[number] = replace(wish, boxes_before=wish.boxes_before + 1)
+
+    def identified(self, box: BoxId, gtin: Gtin, now: float) -> None:
+        """A box that had left unknown is of a product: it may serve a request after all."""
+        if any(wish.box == box for wish in self._wishes):
+            return
+        best = self._best(box, gtin, now)
+        if best is not None:
+            wish = self._wishes[best]
+            before = max(0, wish.boxes_before - 1)  # the box itself was counted
+            self._wishes[best] = replace(wish, served=now, box=box, boxes_before=before)
+
+    def _waiting(self, now: float) -> list[tuple[int, Wish]]:
+        return [
+            (number, wish)
+            for number, wish in enumerate(self._wishes)
+            if wish.served is None and wish.request.arrived <= now
+        ]
+
+    def _best(self, box: BoxId, gtin: Gtin | None, now: float) -> int | None:
+        fitting = [
+            (wish.request.priority, -number)
+            for number, wish in self._waiting(now)
+            if wish.request.box == box or (gtin is not None and wish.request.gtin == gtin)
+        ]
+        return -max(fitting)[1] if fitting else None

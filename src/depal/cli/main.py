@@ -14,6 +14,7 @@ from depal.cli.bench import bench
 from depal.cli.delivery import delivery
 from depal.cli.output import console
 from depal.cli.replay import replay
+from depal.cli.run import run
 from depal.cli.study import study
 from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
@@ -29,6 +30,7 @@ app.add_typer(study, name="study")
 app.add_typer(bench, name="bench")
 app.add_typer(delivery, name="delivery")
 app.add_typer(tasks, name="tasks")
+app.command()(run)
 app.command()(replay)
 
 

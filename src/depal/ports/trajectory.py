@@ -18,11 +18,14 @@ class Trajectory:
         times: (n,) [s], rising from 0.
         positions: (n, 6) [rad].
         velocities: (n, 6) [rad/s]; zero at the end.
+        allowances: (start, end) [s] of the straight parts near boxes, in which the held box may
+            touch what it stands beside or on; anywhere else a contact is a collision.
     """
 
     times: Floats
     positions: Floats
     velocities: Floats
+    allowances: tuple[tuple[float, float], ...] = ()
 
     @property
     def duration(self) -> float:
@@ -38,6 +41,11 @@ class Trajectory:
     def end(self) -> Joints:
         """Where it ends [rad]."""
         return _joints(self.positions[-1])
+
+    def may_touch(self, time: float) -> bool:
+        """Whether a held box may touch something at a time [s], held beyond the ends."""
+        within = min(max(time, 0.0), self.duration)
+        return any(first <= within <= last for first, last in self.allowances)
 
     def at(self, time: float) -> tuple[Floats, Floats]:
         """Position (6,) [rad] and rate (6,) [rad/s] at a time [s], held beyond the ends."""

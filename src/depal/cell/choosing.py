@@ -1,0 +1,59 @@
+"""Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
+
+from dataclasses import dataclass
+
+from depal.cell.desk import Desk, PickPlan
+from depal.cell.workplace import Workplace
+from depal.domain import BoxId, Perceived
+from depal.selection import BlockingGraph, Decision, Refused, ScoreRule, select
+
+
+@dataclass(frozen=True, slots=True)
+class Choice:
+    """One selection.
+
+    Attributes:
+        decision: with every reason.
+        plans: how many motions were planned for it.
+    """
+
+    decision: Decision[PickPlan]
+    plans: int
+
+
+def choose(work: Workplace, desk: Desk) -> Choice:
+    """One call of BOXSELECTION (section II-C) over what stands on the pallet.
+
+    Args:
+        work: the pile, the requests, the settings.
+        desk: asked for a pick of the boxes that nothing blocks, by falling score.
+
+    Returns:
+        The choice; its grasp is a planned pick.
+    """
+    graph = BlockingGraph(work.pile.boxes)
+    before = desk.planned
+
+    def grasp_for(box: Perceived) -> PickPlan | Refused:
+        reason = work.left_behind.get(box.id)
+        if reason is not None:
+            return Refused(reason)
+        plan = desk.try_pick(box)
+        return Refused(plan) if isinstance(plan, str) else plan
+
+    decision = select(graph, work.wishes.open(work.now), rule_of(work), grasp_for)
+    return Choice(decision, desk.planned - before)
+
+
+def rule_of(work: Workplace) -> ScoreRule:
+    """Eq. (3) for this cell: x_max is the far side of its pallet."""
+    stand = work.layout.pallet
+    length, width, _ = stand.size
+    corners = [(x, y, 0.0) for x in (0.0, length) for y in (0.0, width)]
+    x_max = max(stand.cell_from_pallet.apply(corner)[0] for corner in corners)
+    return ScoreRule(w=work.settings.w, x_max=x_max)
+
+
+def priority_of(decision: Decision[PickPlan], box: BoxId) -> float:
+    """l(b) of a box, Eq. (2): what its store is worth to the executive."""
+    return decision.verdict(box).l

@@ -1,0 +1,56 @@
+"""The primitive of `query`: where the box goes, by the store's list and the room there is."""
+
+from depal.cell.desk import Desk
+from depal.cell.workplace import Workplace
+from depal.domain import BoxId, PlaceId, StorageKind
+from depal.executive.engine import Call, Report
+from depal.executive.events import Outcome
+from depal.executive.runtime import Context
+
+
+class Querying:
+    """Finds a place for a box."""
+
+    def __init__(self, work: Workplace, desk: Desk) -> None:
+        """Asks the store's system, then the desk for room."""
+        self._work = work
+        self._desk = desk
+
+    async def ask_target(self, context: Context) -> Report:
+        """The first place of the store's list that has room; a trolley is exchanged for room."""
+        box, work = BoxId(context.args["Box"]), self._work
+        product = work.product_of(box)
+        if product is None:
+            return Report(outcome=Outcome.FAILED, reason="its product is not on the note")
+        places = await work.ports.store.places_for(product.gtin)
+        if not places:
+            reason = f"the store knows no place for product {product.gtin}"
+            return Report(outcome=Outcome.FAILED, reason=reason)
+        reason = "no place was tried"
+        for _ in range(1 + len(work.layout.storages)):
+            found = await self._desk.find_place(box, places)
+            if not isinstance(found, str):
+                return Report(((f"{box}.target", found.place),))
+            reason = found
+            trolley = self._to_exchange(places)
+            if trolley is None:
+                break
+            await self._exchange(trolley)
+        return Report(outcome=Outcome.FAILED, reason=f"no place has room: {reason}")
+
+    def _to_exchange(self, places: tuple[PlaceId, ...]) -> str | None:
+        """The first trolley of the list that holds something."""
+        for place in places:
+            storage = self._work.layout.storage(place)
+            filled = any(len(self._desk.books.map(p.id).boxes) for p in storage.places)
+            if storage.kind is StorageKind.TROLLEY and filled:
+                return storage.id
+        return None
+
+    async def _exchange(self, trolley: str) -> None:
+        work = self._work
+        exchange = work.exchange_of(trolley)
+        if exchange.begin():
+            work.tell([(f"{trolley}.full", True), (f"{trolley}.seen", False)], "cell")
+            work.allocate(Call("exchange", (trolley,)))
+        await exchange.wait()

@@ -1,0 +1,216 @@
+"""Everything that a primitive works with: the ports, and what the cell believes."""
+
+import asyncio
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import Enum
+
+from depal.cell.charges import Charges
+from depal.cell.departures import Departure, Departures, Fate
+from depal.cell.pile import Pile
+from depal.cell.questions import Questions
+from depal.cell.wishes import Wishes
+from depal.domain import BoxId, CellLayout, Delivery, Grasp, Gtin, Perceived, PlaceId, Product
+from depal.executive.engine import Call
+from depal.executive.events import Change
+from depal.executive.runtime import Runtime
+from depal.geometry import Vector3
+from depal.ports import (
+    Arm,
+    BarcodeReader,
+    Bays,
+    Clock,
+    Gripper,
+    Person,
+    Safety,
+    Sight,
+    StoreSystem,
+)
+
+PALLET = "pallet"
+"""The name of the pallet's thing in the task files."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ports:
+    """The devices, people and systems of a cell."""
+
+    arm: Arm
+    gripper: Gripper
+    reader: BarcodeReader
+    bays: Bays
+    safety: Safety
+    person: Person
+    store: StoreSystem
+    sight: Sight
+    clock: Clock
+
+
+class Policy(Enum):
+    """Which boxes may be taken."""
+
+    PAPER = "paper"
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How a run is to go.
+
+    Attributes:
+        w: the weight of Eq. (3).
+        policy: which boxes may be taken.
+        speed: share of the arm's full speed, in (0, 1].
+        charges: of simulated time.
+    """
+
+    w: float = 0.5
+    policy: Policy = Policy.PAPER
+    speed: float = 1.0
+    charges: Charges = Charges()
+
+
+@dataclass(frozen=True, slots=True)
+class Held:
+    """The box in the gripper.
+
+    Attributes:
+        box: its perceived name.
+        grasp: how it is held.
+        size: of the box along its own axes [m].
+        mass: as felt at the flange [kg].
+    """
+
+    box: BoxId
+    grasp: Grasp
+    size: Vector3
+    mass: float
+
+
+class Ending:
+    """Something that begins and ends again and again, and can be waited for."""
+
+    def __init__(self) -> None:
+        """Not begun."""
+        self._over: asyncio.Event | None = None
+
+    def begin(self) -> bool:
+        """Begins, unless it runs; whether it did."""
+        if self._over is not None:
+            return False
+        self._over = asyncio.Event()
+        return True
+
+    def end(self) -> None:
+        """Ends: whoever waits goes on."""
+        if self._over is not None:
+            self._over.set()
+            self._over = None
+
+    async def wait(self) -> None:
+        """Waits until it has ended."""
+        if self._over is not None:
+            await self._over.wait()
+
+
+@dataclass(slots=True)
+class Workplace:
+    """What the primitives share.
+
+    Attributes:
+        layout: the cell.
+        delivery: the note; its stack is not read here.
+        ports: everything outside.
+        settings: of the run.
+        questions: to the supervising person.
+        pile: what stands on the pallet.
+        wishes: what is wanted.
+        departures: what became of the boxes.
+        runtime: the executive; set once it is bound.
+        held: the box in the gripper.
+        left_behind: boxes that stay on the pallet, and why.
+        aside_reasons: why boxes are set aside.
+    """
+
+    layout: CellLayout
+    delivery: Delivery
+    ports: Ports
+    settings: Settings
+    questions: Questions
+    pile: Pile = field(default_factory=Pile)
+    wishes: Wishes = field(default_factory=lambda: Wishes(()))
+    departures: Departures = field(default_factory=Departures)
+    held: Held | None = None
+    left_behind: dict[BoxId, str] = field(default_factory=dict)
+    aside_reasons: dict[BoxId, str] = field(default_factory=dict)
+    _exchanges: dict[str, "Ending"] = field(default_factory=dict)
+    _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
+    _runtime: Runtime | None = None
+
+    def bind(self, runtime: Runtime) -> None:
+        """The executive that the primitives work for."""
+        self._runtime = runtime
+
+    @property
+    def runtime(self) -> Runtime:
+        """The executive.
+
+        Raises:
+            RuntimeError: it is not bound yet.
+        """
+        if self._runtime is None:
+            raise RuntimeError("the workplace is not bound to a runtime")
+        return self._runtime
+
+    @property
+    def now(self) -> float:
+        """The time [s]."""
+        return self.ports.clock.now()
+
+    def tell(self, facts: Iterable[Change], source: str) -> None:
+        """Facts that the world has changed."""
+        self.runtime.change(facts, source)
+
+    def allocate(self, *calls: Call) -> None:
+        """Tasks that follow."""
+        self.runtime.allocate(*calls)
+
+    def gone(self, box: BoxId) -> asyncio.Event:
+        """Set once a box has left the pallet, or never will, and the view of the pile is clear."""
+        return self._gone.setdefault(box, asyncio.Event())
+
+    def lifted(self, box: BoxId, grasp: Grasp, size: Vector3, mass: float) -> None:
+        """The arm has lifted a box off the pallet."""
+        self.held = Held(box, grasp, size, mass)
+        self.pile.take(box)
+        self.departures.leaves(box, self.now)
+        product = self.product_of(box)
+        self.wishes.left(box, product.gtin if product else None, self.now)
+
+    def ended(self, box: BoxId, fate: Fate, place: PlaceId | None = None, reason: str = "") -> None:
+        """It is known what became of a box."""
+        held = self.held if self.held is not None and self.held.box == box else None
+        product = self.product_of(box)
+        gtin = product.gtin if product else None
+        if not self.departures.has_left(box):
+            self.pile.take(box)
+            self.wishes.left(box, gtin, self.now)
+        approach = held.grasp.approach if held else None
+        self.departures.ends(Departure(box, gtin, approach, place, fate, reason, self.now))
+        if held:
+            self.held = None
+        self.gone(box).set()
+
+    def dropped(self, box: BoxId) -> None:
+        """A box has fallen out of the gripper onto the floor."""
+        self.ended(box, Fate.LOST, reason="fell out of the gripper")
+        self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
+
+    def exchange_of(self, trolley: str) -> Ending:
+        """The exchange of a trolley."""
+        return self._exchanges.setdefault(trolley, Ending())
+
+    def product_of(self, box: Perceived | BoxId) -> Product | None:
+        """The product of a box, where it is known and on the note."""
+        name = box if isinstance(box, str) else box.id
+        gtin = self.runtime.engine.state.facts.get(f"{name}.product")
+        return self.delivery.products.get(Gtin(str(gtin))) if gtin else None

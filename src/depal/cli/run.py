@@ -1,0 +1,58 @@
+"""`depal run`: the main job."""
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from depal.cli.output import JsonFile, Seed, console
+
+
+def run(  # noqa: PLR0913 - a command's options
+    delivery: Annotated[
+        str,
+        typer.Argument(
+            help="FILE, FILE#ID, the id of a delivery that ships, or case2: the paper's ten boxes.",
+            show_default=False,
+        ),
+    ] = "",
+    cell: Annotated[
+        str, typer.Option(help="A cell file, or the name of one that ships.")
+    ] = "default",
+    requests: Annotated[
+        str, typer.Option(help="A file of requests, or none.", show_default=False)
+    ] = "",
+    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
+    policy: Annotated[str, typer.Option(help="Which boxes may be taken: paper.")] = "paper",
+    perception: Annotated[str, typer.Option(help="Where boxes come from: truth.")] = "truth",
+    seed: Seed = 0,
+    speed: Annotated[float, typer.Option(help="Share of the arm's full speed, in (0, 1].")] = 1.0,
+    record: Annotated[
+        Path | None,
+        typer.Option(help="Keep a record with pictures in this folder.", show_default=False),
+    ] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Empty a pallet in the simulated cell: physics, motions, tasks and choices."""
+    from depal.app.files import checked_target, write_json  # noqa: PLC0415 - fast help
+    from depal.app.run.job import Options, run_delivery  # noqa: PLC0415
+
+    checked_target(json_file, "--json")
+    options = Options(
+        delivery=delivery,
+        cell=cell,
+        requests=requests,
+        w=w,
+        policy=policy,
+        perception=perception,
+        seed=seed,
+        speed=speed,
+        record=record,
+    )
+    report = run_delivery(options, watch=True)
+    for part in report.shown:
+        console().print(part, highlight=False)
+    if json_file is not None:
+        write_json(json_file, report.fields)
+    if not report.holds:
+        raise typer.Exit(1)

@@ -1,0 +1,1 @@
+"""How the arm moves: kinematics, collision, grasps, planning, timing. Pure functions of values."""

@@ -1,0 +1,108 @@
+"""The simulated arm."""
+
+import asyncio
+
+import numpy as np
+
+from depal.domain import Joints
+from depal.errors import DeviceError
+from depal.executive.clock import Clock
+from depal.ports import Guard, Trajectory
+from depal.simulation.devices.safety import SimulatedSafety
+from depal.simulation.servo import Motion
+from depal.simulation.world import World
+
+PERIOD = 0.008
+"""The control period [s]."""
+
+NEAR = 0.02
+"""A trajectory must begin this near to where the axes stand [rad]."""
+
+
+class SimulatedArm:
+    """An arm that follows trajectories in the simulated world."""
+
+    def __init__(self, world: World, clock: Clock, safety: SimulatedSafety) -> None:
+        """The arm of this world."""
+        self._world, self._clock, self._safety = world, clock, safety
+        self._busy = False
+
+    def joints(self) -> Joints:
+        """Where the axes are [rad]."""
+        self._world.advance(self._clock.now())
+        return self._world.joints()
+
+    def load(self) -> float:
+        """The weight that hangs on the flange beyond the tool's own, as a mass [kg]."""
+        self._world.advance(self._clock.now())
+        return self._world.load()
+
+    async def follow(self, trajectory: Trajectory, guard: Guard | None = None) -> str | None:
+        """Moves along a trajectory that begins where the arm stands.
+
+        Args:
+            trajectory: the motion.
+            guard: asked in every control period; a reason brings the arm to rest on its path.
+
+        Returns:
+            None once the arm rests at the end, else the reason why it stopped before.
+
+        Raises:
+            DeviceError: the arm is moving already, a safety stop is active, or the trajectory
+                begins elsewhere.
+        """
+        self._world.advance(self._clock.now())
+        self._check(trajectory)
+        self._busy = True
+        motion = self._world.begin(trajectory)
+        try:
+            reason = await self._watch(motion, guard)
+            if reason is not None:
+                await self._rest()
+        except asyncio.CancelledError:
+            self._world.advance(self._clock.now())
+            self._world.stop()
+            raise
+        finally:
+            self._busy = False
+        if self._safety.state().stopped:
+            raise DeviceError(f"the arm stopped on its path: {reason}")
+        return reason
+
+    def _check(self, trajectory: Trajectory) -> None:
+        if self._busy:
+            raise DeviceError("the arm was told to move while it moves")
+        if self._safety.state().stopped:
+            raise DeviceError("the arm cannot move: a safety stop is active")
+        wanted, _ = self._world.wanted()
+        away = np.abs(np.array(trajectory.start) - wanted)
+        if away.max() > NEAR:
+            axis = int(away.argmax())
+            raise DeviceError(
+                f"the trajectory begins {away[axis]:.3f} rad from where axis {axis + 1} stands; "
+                f"expected at most {NEAR} rad"
+            )
+
+    async def _watch(self, motion: Motion, guard: Guard | None) -> str | None:
+        """Waits for the end of a motion, period by period; the reason to stop before it."""
+        start, periods = self._clock.now(), 0
+        end = self._world.ending(motion)
+        while self._clock.now() < end - 1e-9:
+            periods += 1
+            await _until(self._clock, min(start + periods * PERIOD, end))
+            self._world.advance(self._clock.now())
+            reason = "a safety stop is active" if self._safety.state().stopped else None
+            if reason is None and guard is not None:
+                reason = guard()
+            if reason is not None:
+                return reason
+        return None
+
+    async def _rest(self) -> None:
+        stopping = self._world.stop()
+        await _until(self._clock, self._world.ending(stopping))
+        self._world.advance(self._clock.now())
+
+
+async def _until(clock: Clock, time: float) -> None:
+    await asyncio.sleep(max(time - clock.now(), 0.0))

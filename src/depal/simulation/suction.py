@@ -1,0 +1,311 @@
+"""The gripper in the simulated world: valves, vacuum, and welds that give way."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from depal.domain import Cup, Tool
+from depal.domain.cup_group import Break, CupGroup
+from depal.simulation.model import STEP, WELDS, CellModel
+from depal.simulation.sealing import Solids, cups_in_cell, sealed
+
+Floats = npt.NDArray[np.float64]
+
+HOLDS = 0.8
+"""A module holds its vacuum when its sensor reads this share of the full one."""
+
+LEAK = 0.6
+"""An open cup that seals nowhere costs the module as much as this share of a sealed one."""
+
+IMPEDANCE = 0.5
+"""Of the welds: with it a weld is a spring whose stiffness is the bellows' own."""
+
+STIFFEST = 2e4
+"""The greatest stiffness of a weld by mass that 2 ms steps follow [1/s^2]."""
+
+TURN_SCALE = 5.0
+"""Weight of a weld's angles against its lengths: cleats make the plate stiff against tilting."""
+
+BURST = 0.05
+"""The vacuum of a torn module is gone after this [s]."""
+
+TOUCH = 1e-9
+"""A force that wakes a sleeping box and does nothing else [N]."""
+
+SMOOTHING = 0.5
+"""Share of a new reading in the load of a weld: a peak of one step breaks nothing."""
+
+
+@dataclass(slots=True)
+class Hold:
+    """Cups in one plane that hold one box; both modules' cups where these are coplanar.
+
+    Attributes:
+        weld: which of the model's welds.
+        box: which box.
+        cups: that hold it.
+        group: the same as a group.
+        rotation: `flange_from_face` of the plane.
+        middle: of the group, in the flange's frame [m].
+        force: on the cups by the box, in the face's frame, smoothed [N].
+        moment: the same about the middle of the group [N m].
+        lift: what the box weighs on the tool, along the vertical, smoothed [N].
+    """
+
+    weld: int
+    box: int
+    cups: tuple[Cup, ...]
+    group: CupGroup
+    rotation: Floats
+    middle: Floats
+    force: Floats
+    moment: Floats
+    lift: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """A hold that gave way.
+
+    Attributes:
+        at: when [s].
+        box: which box.
+        why: which limit was passed.
+        share: of the limit that the load used.
+    """
+
+    at: float
+    box: int
+    why: Break
+    share: float
+
+
+@dataclass(slots=True)
+class _Valve:
+    """A module's vacuum: a straight line from one value to another."""
+
+    start: float = 0.0
+    since: float = 0.0
+    end: float = 0.0
+    time: float = 1.0
+
+    def level(self, now: float) -> float:
+        share = min(max((now - self.since) / self.time, 0.0), 1.0)
+        return self.start + (self.end - self.start) * share
+
+
+class SuctionState:
+    """Valves, vacuum and welds of the tool."""
+
+    def __init__(self, model: CellModel, data: mujoco.MjData) -> None:
+        """All cups are vented, the lower module is down."""
+        self.model, self.data = model, data
+        self.tool: Tool = model.layout.tool
+        self.folded = False
+        self.open: dict[str, tuple[int, ...]] = {}
+        self.holds: list[Hold] = []
+        self.let_go = False
+        self.sparse = bool(mujoco.mj_isSparse(model.mj))
+        self._valves = {module.name: _Valve() for module in self.tool.modules}
+
+    def vacuum(self, now: float) -> dict[str, float]:
+        """Below the pressure around, by module [Pa]."""
+        return {name: valve.level(now) for name, valve in self._valves.items()}
+
+    def open_valves(self, cups: tuple[Cup, ...], now: float) -> None:
+        """Opens the valves of these cups and shuts all others that hold nothing."""
+        wanted = sorted(self._held_cups() | set(cups))
+        names = [module.name for module in self.tool.modules]
+        self.open = {name: tuple(cup for module, cup in wanted if module == name) for name in names}
+        for name in names:
+            cups_here = tuple((name, cup) for cup in self.open[name])
+            good = int((self._boxes_under(cups_here) >= 0).sum())
+            self._head_for(name, self._level(name, good), now, self.tool.suction.rise)
+
+    def grip(self, now: float) -> bool:
+        """Welds every sealed cup whose module has its vacuum; whether all open modules have it."""
+        fresh = [
+            (name, cup)
+            for name, cups in self.open.items()
+            for cup in cups
+            if (name, cup) not in self._held_cups() and self._valves[name].level(now) > 0.0
+        ]
+        under = dict(zip(fresh, self._boxes_under(tuple(fresh)).tolist(), strict=True))
+        for plane in self._planes():
+            for box in sorted({under[cup] for cup in fresh if cup[0] in plane} - {-1}):
+                self._weld(tuple(c for c in fresh if c[0] in plane and under[c] == box), box)
+        full = HOLDS * self.tool.suction.vacuum
+        opened = [name for name, cups in self.open.items() if cups]
+        return bool(opened) and all(self._valves[name].level(now) >= full for name in opened)
+
+    def vent(self, now: float) -> None:
+        """Shuts every valve and lets go of every box."""
+        for hold in list(self.holds):
+            self._let_go(hold)
+        self.open = {}
+        for name in self._valves:
+            self._head_for(name, 0.0, now, self.tool.suction.vent)
+
+    def detach(self, box: int, now: float) -> None:
+        """Pulls a box off the cups; they leak from now on."""
+        for hold in [hold for hold in self.holds if hold.box == box]:
+            self._tear(hold, now)
+
+    def after_step(self, now: float) -> list[Broken]:
+        """Reads the load of every hold; those beyond their limit break."""
+        broken = []
+        for k, hold in enumerate(self.holds):
+            self._read(hold, 6 * k)
+            share, why = hold.group.load_share(hold.force, hold.moment, self._pull(hold, now))
+            if share > 1.0:
+                broken.append((hold, Broken(now, hold.box, why, share)))
+        for hold, _ in broken:
+            self._tear(hold, now)
+        return [event for _, event in broken]
+
+    @property
+    def held_boxes(self) -> tuple[int, ...]:
+        """The boxes that hang on the tool."""
+        return tuple(sorted({hold.box for hold in self.holds}))
+
+    @property
+    def lift(self) -> float:
+        """What hangs on the tool [N]."""
+        return sum(hold.lift for hold in self.holds)
+
+    def _level(self, name: str, good: int) -> float:
+        """The vacuum that a module will reach when so many of its open cups seal [Pa]."""
+        bad = len(self.open.get(name, ())) - good
+        return self.tool.suction.vacuum * good / (good + LEAK * bad) if good else 0.0
+
+    def _held_cups(self) -> set[Cup]:
+        return {cup for hold in self.holds for cup in hold.cups}
+
+    def _pull(self, hold: Hold, now: float) -> float:
+        """Area times vacuum of the cups of a hold [N]."""
+        suction = self.tool.suction
+        levels = [self._valves[name].level(now) for name, _ in hold.cups]
+        return suction.cup_force * sum(levels) / suction.vacuum
+
+    def _planes(self) -> list[tuple[str, ...]]:
+        """The modules by the plane that their cups touch in."""
+        names = tuple(module.name for module in self.tool.modules)
+        return [names] if self.folded else [(name,) for name in names]
+
+    def _head_for(self, name: str, level: float, now: float, time: float) -> None:
+        valve = self._valves[name]
+        self._valves[name] = _Valve(valve.level(now), now, level, time)
+
+    def _boxes_under(self, cups: tuple[Cup, ...]) -> npt.NDArray[np.int64]:
+        """The box that each cup seals on; -1 where there is none."""
+        solids, suction = self.solids(), self.tool.suction
+        found = np.full(len(cups), -1)
+        if not len(solids.centres):
+            return found
+        centre = self.data.xpos[self.model.tool_body]
+        rotation = self.data.xmat[self.model.tool_body].reshape(3, 3)
+        for name in sorted({name for name, _ in cups}):
+            rows = [row for row, cup in enumerate(cups) if cup[0] == name]
+            module = self.tool.module(name, folded=self.folded)
+            chosen = tuple(cups[row][1] for row in rows)
+            points, face = cups_in_cell(module, chosen, centre, rotation)
+            found[rows] = sealed(points, face[:, 0], solids, suction.cup_radius, suction.stroke)
+        return found
+
+    def solids(self) -> Solids:
+        """All boxes where they are."""
+        model = self.model
+        return Solids(
+            self.data.xpos[model.box_bodies],
+            self.data.xmat[model.box_bodies].reshape(-1, 3, 3),
+            model.mj.geom_size[model.box_geoms],
+        )
+
+    def _weld(self, cups: tuple[Cup, ...], box: int) -> None:
+        free = sorted(set(range(WELDS)) - {hold.weld for hold in self.holds})
+        if not free:
+            return
+        suction, plane = self.tool.suction, self.tool.module(cups[0][0], folded=self.folded)
+        face_from_flange = plane.flange_from_face.inverse
+        centres = []
+        for name, cup in cups:
+            module = self.tool.module(name, folded=self.folded)
+            point = module.flange_from_face.apply((0.0, *module.cups[cup]))
+            centres.append(face_from_flange.apply(point)[1:])
+        group = CupGroup.of(np.array(centres), suction.cup_radius, suction.friction)
+        rotation = np.array(plane.flange_from_face.rotation, dtype=float)
+        middle = np.array(plane.flange_from_face.apply((0.0, *group.middle)))
+        self._switch_on(free[0], box, middle, suction.stiffness * len(cups))
+        hold = Hold(free[0], box, cups, group, rotation, middle, np.zeros(3), np.zeros(3))
+        self.holds = sorted([*self.holds, hold], key=lambda other: other.weld)
+
+    def _switch_on(self, weld: int, box: int, middle: Floats, stiffness: float) -> None:
+        """Ties a box to the tool where both are now."""
+        mj, data, tool = self.model.mj, self.data, self.model.tool_body
+        body = int(self.model.box_bodies[box])
+        turn = data.xmat[tool].reshape(3, 3)
+        centre = turn.T @ (data.xpos[body] - data.xpos[tool])
+        relative = np.zeros(4)
+        back = data.xquat[tool] * np.array([1.0, -1.0, -1.0, -1.0])
+        mujoco.mju_mulQuat(relative, back, data.xquat[body])
+        box_from_tool = data.xmat[body].reshape(3, 3).T @ turn
+        mj.eq_obj2id[weld] = body
+        mj.eq_data[weld, :3] = box_from_tool @ (middle - centre)
+        mj.eq_data[weld, 3:6] = middle
+        mj.eq_data[weld, 6:10] = relative
+        mj.eq_data[weld, 10] = TURN_SCALE
+        mass = float(mj.body_mass[body])
+        k = min(stiffness * (1 - IMPEDANCE) / (IMPEDANCE * mass), STIFFEST)
+        mj.eq_solref[weld] = (-k, -2 * np.sqrt(k / IMPEDANCE))
+        mj.eq_solimp[weld] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
+        data.eq_active[weld] = 1
+
+    def _tear(self, hold: Hold, now: float) -> None:
+        """Lets go of a box with open valves: they leak from now on."""
+        self._let_go(hold)
+        for name in sorted({name for name, _ in hold.cups}):
+            good = sum(1 for module, _ in self._held_cups() if module == name)
+            self._head_for(name, self._level(name, good), now, BURST)
+
+    def _let_go(self, hold: Hold) -> None:
+        self.data.eq_active[hold.weld] = 0
+        self.holds.remove(hold)
+        # At rest beside an arm that never sleeps, the box would fall asleep in the air.
+        self.data.xfrc_applied[self.model.box_bodies[hold.box], 2] = TOUCH
+        self.let_go = True
+
+    def _read(self, hold: Hold, row: int) -> None:
+        """The load on the cups from the weld's constraint force in the last step."""
+        data, body = self.data, int(self.model.box_bodies[hold.box])
+        if data.ne < row + 6:
+            return
+        rows = self._jacobian(row, int(self.model.box_dofs[hold.box]))
+        wrench = rows.T @ data.efc_force[row : row + 6]
+        force = wrench[:3]
+        face = data.xmat[self.model.tool_body].reshape(3, 3) @ hold.rotation
+        turn = data.xmat[self.model.tool_body].reshape(3, 3)
+        point = data.xpos[self.model.tool_body] + turn @ hold.middle
+        moment = data.xmat[body].reshape(3, 3) @ wrench[3:]
+        moment = moment + np.cross(data.xpos[body] - point, force)
+        hold.force = hold.force + SMOOTHING * (-face.T @ force - hold.force)
+        hold.moment = hold.moment + SMOOTHING * (-face.T @ moment - hold.moment)
+        hold.lift += SMOOTHING * (float(force[2]) - hold.lift)
+
+    def _jacobian(self, row: int, dof: int) -> Floats:
+        """The part of six rows that belongs to the velocities of one box, (6, 6)."""
+        data = self.data
+        if not self.sparse:
+            dense: Floats = data.efc_J.reshape(-1, self.model.mj.nv)[row : row + 6, dof : dof + 6]
+            return dense
+        part = np.zeros((6, 6))
+        for k in range(6):
+            start, count = data.efc_J_rowadr[row + k], data.efc_J_rownnz[row + k]
+            columns = data.efc_J_colind[start : start + count] - dof
+            inside = (columns >= 0) & (columns < len(part))
+            part[k, columns[inside]] = data.efc_J[start : start + count][inside]
+        return part
+
+
+__all__ = ["HOLDS", "STEP", "Broken", "Hold", "SuctionState"]

@@ -1,0 +1,254 @@
+"""The simulated world: one MuJoCo model and its state, advanced as far as somebody asks."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from depal.domain import CellLayout, Joints
+from depal.geometry import Pose
+from depal.ports.trajectory import Trajectory
+from depal.simulation.cases import Case
+from depal.simulation.contacts import ContactWatch
+from depal.simulation.model import ARM_DAMPING, ARM_STIFFNESS, STEP, build_model
+from depal.simulation.servo import Motion, motion_along, stopped
+from depal.simulation.suction import TOUCH, Broken, SuctionState
+
+Floats = npt.NDArray[np.float64]
+
+RESTING = 2e-3
+"""Nothing moves when no velocity of what is awake is above this [m/s, rad/s]."""
+
+QUIET = 50
+"""So many steps without a command or a movement, and the world stands still."""
+
+SETTLING = 3000
+"""The stack gets this many steps to come to rest at the most."""
+
+G = 9.81
+LOAD_FILTER = 0.01
+"""Time constant of the load cell [s]."""
+
+_STIFFNESS, _DAMPING = np.array(ARM_STIFFNESS), np.array(ARM_DAMPING)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapshot:
+    """Where everything is, for pictures.
+
+    Attributes:
+        at: when [s].
+        arm: (8, 7) base, links 1 to 6 and the tool: position [m] and quaternion (w, x, y, z).
+        boxes: (n, 7) the same of the boxes.
+        folded: whether the lower module is up.
+        held: boxes in the hand.
+        removed: boxes that people took away.
+        bays: the trolley that stands in each bay.
+    """
+
+    at: float
+    arm: Floats
+    boxes: Floats
+    folded: bool
+    held: tuple[int, ...]
+    removed: tuple[int, ...]
+    bays: dict[str, str | None]
+
+
+class World:
+    """Everything physical, and the time up to which it has happened.
+
+    Attributes:
+        model: the MuJoCo model and its indices.
+        data: its state.
+        suction: valves, vacuum, welds.
+        contacts: the watch for collisions.
+        broken: holds that gave way, in order.
+        removed: boxes that people took out of the cell.
+        bays: the name of the trolley that stands in each bay, None where none does.
+        steps: how many steps were computed; those in which all stood still were not.
+    """
+
+    def __init__(
+        self,
+        layout: CellLayout,
+        cases: tuple[Case, ...],
+        seed: int = 0,
+        start: float = 0.0,
+        joints: Joints | None = None,
+    ) -> None:
+        """Builds the world and lets the stack settle.
+
+        Args:
+            layout: the cell.
+            cases: the boxes with their poses.
+            seed: of all randomness in this world.
+            start: the time at the beginning [s].
+            joints: where the arm stands; parked where nothing is said [rad].
+        """
+        self.layout, self.cases, self.seed = layout, cases, seed
+        self.model = build_model(layout, cases)
+        self.data = mujoco.MjData(self.model.mj)
+        self.suction = SuctionState(self.model, self.data)
+        self.contacts = ContactWatch(self.model, self.data)
+        self.broken: list[Broken] = []
+        self.removed: list[int] = []
+        self.bays: dict[str, str | None] = {storage.id: storage.id for storage in layout.storages}
+        self.steps = 0
+        self.start = start
+        self._tick = 0
+        self._quiet = 0
+        self._load = 0.0
+        self._noise = np.random.default_rng([seed, 1])
+        self._motion = motion_along(_standing(joints or layout.robot.parked), 0, STEP)
+        self._show_fold()
+        self._settle()
+
+    @property
+    def now(self) -> float:
+        """The time up to which the world has gone on [s]."""
+        return self.start + self._tick * STEP
+
+    def advance(self, to: float) -> None:
+        """Lets the world go on until a time [s]; a time that has passed changes nothing."""
+        last = int((to - self.start) / STEP + 1e-6)
+        while self._tick < last:
+            if self._quiet >= QUIET:
+                self._tick = last
+                return
+            self._step()
+
+    def wake(self) -> None:
+        """Something was done to the world: it does not stand still any more."""
+        self._quiet = 0
+
+    def begin(self, trajectory: Trajectory) -> Motion:
+        """The servos follow a trajectory from now on."""
+        self.wake()
+        self._motion = motion_along(trajectory, self._tick, STEP)
+        return self._motion
+
+    def stop(self) -> Motion:
+        """The arm comes to rest along its path."""
+        self._motion = stopped(self._motion, self._tick, STEP, self.layout.robot.limits)
+        return self._motion
+
+    def ending(self, motion: Motion) -> float:
+        """When a motion is at rest [s]."""
+        return self.start + motion.last * STEP
+
+    def joints(self) -> Joints:
+        """Where the axes are [rad]."""
+        a, b, c, d, e, f = self.data.qpos[:6].tolist()
+        return (a, b, c, d, e, f)
+
+    def wanted(self) -> tuple[Floats, Floats]:
+        """Where the servos want the axes now [rad] and how fast [rad/s]."""
+        row = self._motion.row(self._tick)
+        return self._motion.positions[row], self._motion.velocities[row]
+
+    def load(self) -> float:
+        """What the load cell reads, noise included [kg]."""
+        return self._load / G + float(self._noise.normal(0.0, 0.01))
+
+    def fold(self, *, up: bool) -> None:
+        """Puts the lower module up or down."""
+        self.suction.folded = up
+        self._show_fold()
+        self.wake()
+
+    def flange(self) -> Pose:
+        """`cell_from_flange`."""
+        body = self.model.tool_body
+        return Pose.from_arrays(self.data.xpos[body], self.data.xmat[body].reshape(3, 3))
+
+    def box(self, index: int) -> Pose:
+        """`cell_from_box`."""
+        body = self.model.box_bodies[index]
+        return Pose.from_arrays(self.data.xpos[body], self.data.xmat[body].reshape(3, 3))
+
+    def place_box(self, index: int, pose: Pose) -> None:
+        """Puts a box somewhere, at rest: the work of a person, or of a test."""
+        self.suction.detach(index, self.now)
+        address, dof = self.model.box_positions[index], self.model.box_dofs[index]
+        quaternion = np.zeros(4)
+        mujoco.mju_mat2Quat(quaternion, np.array(pose.rotation).ravel())
+        self.data.qpos[address : address + 3] = pose.translation
+        self.data.qpos[address + 3 : address + 7] = quaternion
+        self.data.qvel[dof : dof + 6] = 0.0
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Wakes every box and finds all poses again, after something was put elsewhere."""
+        bodies = self.model.box_bodies
+        self.data.xfrc_applied[bodies, 2] = TOUCH
+        mujoco.mj_forward(self.model.mj, self.data)
+        self.data.xfrc_applied[bodies, 2] = 0.0
+        self.wake()
+
+    def snapshot(self) -> Snapshot:
+        """Where everything is now, as copies."""
+        data, model = self.data, self.model
+        base = model.mj.body("base").id
+        arm = np.array([base, *model.arm_bodies, model.tool_body])
+        return Snapshot(
+            self.now,
+            np.hstack((data.xpos[arm], data.xquat[arm])),
+            np.hstack((data.xpos[model.box_bodies], data.xquat[model.box_bodies])),
+            self.suction.folded,
+            self.suction.held_boxes,
+            tuple(self.removed),
+            dict(self.bays),
+        )
+
+    def _step(self) -> None:
+        positions, velocities = self.wanted()
+        self.data.ctrl[:] = _STIFFNESS * positions + _DAMPING * velocities
+        mujoco.mj_step(self.model.mj, self.data)
+        self._tick += 1
+        self.steps += 1
+        if self.suction.let_go:
+            self.data.xfrc_applied[self.model.box_bodies, 2] = 0.0
+            self.suction.let_go = False
+        if self.suction.holds:
+            self.broken += self.suction.after_step(self.now)
+        self._load += (self.suction.lift - self._load) * STEP / LOAD_FILTER
+        moving = self._tick <= self._motion.last
+        free = moving and not self._motion.may_touch(self._tick)
+        self.contacts.after_step(self._tick, self.now, self.suction.held_boxes, free=free)
+        self._quiet = 0 if moving or self._stirs() else self._quiet + 1
+
+    def _stirs(self) -> bool:
+        """Whether anything but the arm and what it holds is awake, or any of it moves."""
+        data, model = self.data, self.model
+        awake = int(np.count_nonzero(data.tree_asleep < 0))
+        if awake > 1 + len(self.suction.held_boxes):
+            return True
+        return bool(np.abs(data.qvel).max(initial=0.0) > RESTING) or bool(
+            abs(self.suction.lift - self._load) > 0.05 * G and len(model.cases)
+        )
+
+    def _show_fold(self) -> None:
+        """Lets only those solids of the tool collide that are there."""
+        geoms = ((self.model.unfolded_geoms, False), (self.model.folded_geoms, True))
+        for group, up in geoms:
+            there = up == self.suction.folded
+            self.model.mj.geom_contype[group] = 2 if there else 0
+            self.model.mj.geom_conaffinity[group] = 3 if there else 0
+
+    def _settle(self) -> None:
+        """Lets the stack come to rest before the time begins."""
+        data = self.data
+        data.qpos[:6] = self._motion.positions[-1]
+        data.ctrl[:] = _STIFFNESS * data.qpos[:6]
+        for _ in range(0, SETTLING, 10):
+            mujoco.mj_step(self.model.mj, data, 10)
+            if np.count_nonzero(data.tree_asleep < 0) <= 1:
+                break
+        data.qvel[:] = 0.0
+        self.contacts.collisions.clear()
+
+
+def _standing(joints: Joints) -> Trajectory:
+    return Trajectory(np.zeros(1), np.array([joints]), np.zeros((1, 6)))
