@@ -1,5 +1,6 @@
 """Where boxes go inside compartments, and the cell's own map of what stands where."""
 
+from depal.logistics.placing.books import Books
 from depal.logistics.placing.finding import can_stand, find_spots, is_full_for
 from depal.logistics.placing.place_map import PlaceMap
 from depal.logistics.placing.values import (
@@ -14,6 +15,7 @@ from depal.logistics.placing.values import (
 
 __all__ = [
     "MARGINS",
+    "Books",
     "Envelope",
     "Held",
     "Margins",

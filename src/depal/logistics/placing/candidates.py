@@ -32,9 +32,9 @@ class Weights(NamedTuple):
     """
 
     lost: float = 1.0
-    shallow: float = 1.0
-    high: float = 0.5
-    sliver: float = 0.12
+    shallow: float = 0.3
+    high: float = 0.03
+    sliver: float = 0.20
 
 
 @loop_kernel

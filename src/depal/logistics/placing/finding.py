@@ -115,4 +115,4 @@ def _spot(place_map: PlaceMap, held: Held, margins: Margins, row: list[float]) -
         and box.corner[1] < y + width
         and box.corner[1] + box.size[1] > y
     ]
-    return Spot(place_map.place.id, (x, y, z), held.size, tuple(carriers))
+    return Spot(place_map.place.id, (x, y, z), held.size, tuple(carriers), row[3])

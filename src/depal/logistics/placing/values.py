@@ -133,12 +133,14 @@ class Spot:
         corner: the box's corner with the smallest coordinates, in the place's frame [m].
         size: depth, width, height of the box as it would stand [m].
         carried_by: the boxes that it would stand on; empty on the floor.
+        cost: what it spoils, to be compared with other spots for the same box; smallest is best.
     """
 
     place: PlaceId
     corner: Vector3
     size: Vector3
     carried_by: tuple[BoxId, ...] = ()
+    cost: float = 0.0
 
     @property
     def depth(self) -> float:
