@@ -79,13 +79,15 @@ def piece_at(piece: Floats, u: float, q: Floats, q1: Floats, q2: Floats) -> None
 @kernel
 def piece_end(piece: Floats, u: float) -> Floats:
     """The value of a piece at a parameter since its start, (6,) [rad]."""
-    return piece[0] + u * (piece[1] + u * (piece[2] + u * piece[3]))
+    out: Floats = piece[0] + u * (piece[1] + u * (piece[2] + u * piece[3]))
+    return out
 
 
 @kernel
 def piece_rate(piece: Floats, u: float) -> Floats:
     """The derivative of a piece at a parameter since its start, (6,) [rad/s]."""
-    return piece[1] + u * (2 * piece[2] + 3 * u * piece[3])
+    out: Floats = piece[1] + u * (2 * piece[2] + 3 * u * piece[3])
+    return out
 
 
 @kernel

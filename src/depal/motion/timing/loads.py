@@ -1,17 +1,15 @@
 """What a motion asks of the suction, as rows that are linear in the path's acceleration.
 
-Along a path q(s) the wrench at the cups is w0 + w1 s'' + w2 s'^2. The pull and the peel limits of
-`domain.cup_group` are planes already; the round friction cone is replaced by a polyhedron inside
-it.
+Along a path q(s) the wrench at the cups is w0 + w1 s'' + w2 s'^2, and the box holds where every row
+of `grasping.cone` says so.
 """
 
-import itertools
-import math
 from typing import NamedTuple
 
 import numpy as np
 
 from depal.geometry import kernel, loop_kernel
+from depal.motion.grasping.cone import cone_rows
 from depal.motion.grasping.holding import G, Holding
 from depal.motion.timing.legs import Floats
 
@@ -52,72 +50,6 @@ def load_of(holding: Holding) -> Load:
         np.ascontiguousarray(face.T @ holding.inertia @ face),
         holding.mass,
     )
-
-
-def cone_rows(holding: Holding) -> Floats:
-    """Rows on (force, moment) that are at most 1 only where the box holds, (k, 6)."""
-    counted = holding.pull / holding.safety
-    group = holding.group
-    corners = _outermost(group.tension_from_moment)
-    peel = np.zeros((len(corners), 6))
-    peel[:, 0] = 1.0 / counted
-    peel[:, 4:] = corners / counted
-    directions, inside = round_directions()
-    shear = np.zeros((len(directions), 6))
-    shear[:, 0] = 1.0 / counted
-    shear[:, 1:4] = directions / (group.friction * inside * counted)
-    shear[:, 3] /= group.arm
-    return np.concatenate((peel, shear))
-
-
-def round_directions() -> tuple[Floats, float]:
-    """Directions on a sphere, (42, 3), and the share of it that their planes keep.
-
-    The corners of an icosahedron and the middles of its edges. The polyhedron whose planes touch a
-    ball in these directions lies in a ball that is larger by one over the share.
-    """
-    golden = (1 + math.sqrt(5)) / 2
-    signs = (-1.0, 1.0)
-    corners = np.array(
-        [
-            np.roll((0.0, a, b * golden), turn)
-            for turn, a, b in itertools.product(range(3), signs, signs)
-        ]
-    )
-    pairs = itertools.combinations(range(len(corners)), 2)
-    edges = [
-        corners[i] + corners[j]
-        for i, j in pairs
-        if abs(float(np.linalg.norm(corners[i] - corners[j])) - 2.0) < 0.1  # noqa: PLR2004
-    ]
-    directions = np.concatenate((corners, np.array(edges)))
-    directions /= np.linalg.norm(directions, axis=1)[:, None]
-    # The point of the sphere that is furthest from all of them sees the three corners of a small
-    # triangle, one corner and two middles, alike.
-    near = directions[np.argsort(-(directions @ directions[0]), kind="stable")]
-    first = near[1]
-    second = max(near[2:6], key=lambda other: float(other @ first))
-    normal = np.cross(first - near[0], second - near[0])
-    share = abs(float(near[0] @ normal)) / float(np.linalg.norm(normal))
-    return directions, share
-
-
-def _outermost(points: Floats) -> Floats:
-    """The corners of the convex hull of points in the plane, (k, 2)."""
-    order = np.lexsort((points[:, 1], points[:, 0]))
-    hull: list[Floats] = []
-    for ordered in (order, order[::-1]):
-        half: list[Floats] = []
-        for row in ordered:
-            while len(half) > 1 and _turn(half[-2], half[-1], points[row]) <= 0.0:
-                half.pop()
-            half.append(points[row])
-        hull += half[:-1]
-    return np.array(hull)
-
-
-def _turn(a: Floats, b: Floats, c: Floats) -> float:
-    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
 
 
 @loop_kernel

@@ -13,15 +13,13 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.geometry import kernel
+from depal.motion.grasping.cone import RESERVE
 from depal.motion.kinematics import link_frames
 from depal.motion.timing.legs import Floats, piece_at
 from depal.motion.timing.loads import Load, flange_rates, wrenches
 
 FLAT = 1e-10
 """A coefficient below this is none."""
-
-SLACK = 0.02
-"""A box is at rest only where this share of what the suction may carry is left."""
 
 STEPS = 60
 """The greatest x of an interval is looked for in this many steps at the most."""
@@ -115,7 +113,7 @@ def rows_at(
                 by_u += row * wrench[1, column]
                 by_x += row * wrench[2, column]
             rows[12 + k, 0], rows[12 + k, 1], rows[12 + k, 2] = by_u, by_x, 1.0 - still
-            if 1.0 - still < SLACK:
+            if 1.0 - still < RESERVE:
                 fastest = -1.0
     return fastest
 
