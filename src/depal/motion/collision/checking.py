@@ -109,7 +109,7 @@ def _hand_hits(case: Case, work: Array, hit: npt.NDArray[np.int64]) -> bool:
         rz = abs(rotation[2, 0]) * half[0] + abs(rotation[2, 1]) * half[1]
         rz += abs(rotation[2, 2]) * half[2]
         hit[0] = HAND + part
-        if centre[2] - rz < (0.0 if held else margins.floor):
+        if centre[2] - rz < margins.floor:
             hit[1] = FLOOR
             return True
         if _outside(case.fence, margins.floor, centre[0], centre[1], rx, ry):
