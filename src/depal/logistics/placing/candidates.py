@@ -22,19 +22,27 @@ SKIP = 1e9
 
 
 class Weights(NamedTuple):
-    """What makes a spot good; the smallest sum is best. Found by `measure_fill`.
+    """What makes a spot good; the smallest sum is best. Chosen with `measure_fill`.
 
     Attributes:
         lost: per share of the place's volume that nothing can use any more.
         shallow: per metre between the outward face and the back.
         high: per metre above the floor.
-        sliver: gaps below this are lost [m].
+        front: for what is lost in front of the box, as a share of the same behind it.
+        narrow: gaps narrower than this are of no use [m].
+        wide: gaps wider than this are of full use [m].
+        flat: room lower than this is of no use [m].
+        tall: room higher than this is of full use [m].
     """
 
-    lost: float = 1.0
-    shallow: float = 0.3
+    lost: float = 1.00
+    shallow: float = 0.50
     high: float = 0.03
-    sliver: float = 0.20
+    front: float = 0.60
+    narrow: float = 0.10
+    wide: float = 0.35
+    flat: float = 0.10
+    tall: float = 0.15
 
 
 @loop_kernel
@@ -108,6 +116,12 @@ def gap_beside(scene: Scene, load: Load, x: float, y: float, z: float, sign: flo
 
 
 @loop_kernel
+def useless(gap: float, none: float, every: float) -> float:
+    """The share of boxes that do not fit into a gap: all below `none`, none above `every`."""
+    return min(max((every - gap) / (every - none), 0.0), 1.0)
+
+
+@loop_kernel
 def cost(scene: Scene, load: Load, weights: Weights, x: float, y: float, z: float) -> float:
     """How much a spot spoils: room lost behind, below, beside and above it, and height."""
     d, w, h = load.depth, load.width, load.height
@@ -118,12 +132,12 @@ def cost(scene: Scene, load: Load, weights: Weights, x: float, y: float, z: floa
     beside = 0.0
     for sign in (-1.0, 1.0):
         gap = gap_beside(scene, load, x, y, z, sign)
-        if gap < weights.sliver:
-            beside += gap * d * h
+        beside += gap * d * h * useless(gap, weights.narrow, weights.wide)
     room = scene.height - top
-    over = room * d * w if room < weights.sliver else 0.0
+    over = room * d * w * useless(room, weights.flat, weights.tall)
+    front = x * w * h * useless(x, weights.narrow, weights.wide)
     volume = scene.depth * scene.width * scene.height
-    lost = (behind + below + beside + over) / volume
+    lost = (behind + below + beside + over + weights.front * front) / volume
     return weights.lost * lost + weights.shallow * (scene.depth - far) + weights.high * z
 
 
