@@ -1,5 +1,6 @@
 """How full the places of small trolleys become with real deliveries."""
 
+import os
 import time
 
 import pytest
@@ -60,6 +61,9 @@ def test_a_note_without_a_stack_brings_no_boxes() -> None:
         arrivals(note, [0])
 
 
+@pytest.mark.skipif(
+    os.environ.get("NUMBA_DISABLE_JIT", "0") not in {"", "0"}, reason="plain Python is slow"
+)
 def test_spots_beside_fifteen_boxes_are_found_in_two_milliseconds() -> None:
     """Median of some calls on a place that is filled with small boxes."""
     place_map = PlaceMap(Place(PlaceId("shelf/level_1"), Pose(), (1.2, 0.6), 0.6))

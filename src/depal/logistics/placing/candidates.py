@@ -3,7 +3,9 @@
 from typing import NamedTuple
 
 from depal.geometry import loop_kernel
-from depal.logistics.placing.feasible import EPS, NOWHERE, Array, Load, Rules, Scene, deepest, lands
+from depal.logistics.placing.bearing import bears
+from depal.logistics.placing.feasible import NOWHERE, deepest, lands
+from depal.logistics.placing.scene import EPS, Array, Load, Rules, Scene
 
 SIDES_PER_BOX = 7
 """Ways to stand beside or upon one box."""
@@ -142,6 +144,18 @@ def cost(scene: Scene, load: Load, weights: Weights, x: float, y: float, z: floa
 
 
 @loop_kernel
+def is_repeated(scene: Scene, level: int) -> bool:
+    """Whether the floor or the top of a box before this one is as high."""
+    z = scene.high[level, 2]
+    if z <= EPS:
+        return True
+    for other in range(level):  # noqa: SIM110 - a kernel has no generators
+        if abs(scene.high[other, 2] - z) <= EPS:
+            return True
+    return False
+
+
+@loop_kernel
 def list_spots(scene: Scene, load: Load, rules: Rules, weights: Weights, out: Array) -> int:
     """Lists every candidate that is possible.
 
@@ -158,12 +172,9 @@ def list_spots(scene: Scene, load: Load, rules: Rules, weights: Weights, out: Ar
     """
     n, found = len(scene.low), 0
     for level in range(-1, n):
-        z = 0.0 if level < 0 else scene.high[level, 2]
-        seen = level >= 0 and z <= EPS
-        for other in range(max(level, 0)):
-            seen = seen or abs(scene.high[other, 2] - z) <= EPS
-        if seen:
+        if level >= 0 and is_repeated(scene, level):
             continue
+        z = 0.0 if level < 0 else scene.high[level, 2]
         for side in range(4 + SIDES_PER_BOX * n):
             y = side_at(scene, load, rules, z, side)
             if y == SKIP:
@@ -174,6 +185,8 @@ def list_spots(scene: Scene, load: Load, rules: Rules, weights: Weights, out: Ar
             for way in range(1 + STEPS + (2 * n if level >= 0 else 0)):
                 x = depth_at(scene, load, z, near, way)
                 if x < -EPS or x > near + EPS or not lands(scene, load, rules, x, y, z):
+                    continue
+                if not bears(scene, load, rules, x, y, z):
                     continue
                 if found == len(out):
                     return found
