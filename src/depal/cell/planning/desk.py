@@ -16,10 +16,10 @@ from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Joints, Perceived, PlaceId, Recognition, StorageKind
 from depal.geometry import OrientedBox
-from depal.logistics.placing import MARGINS, Books, find_spots
+from depal.logistics.placing import MARGINS, Books, Spot, find_spots
 from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding, grasps
-from depal.motion.moves import OPEN, Kind, Mover, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, Berth, Kind, Mover, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort
 from depal.ports import Trajectory
 
@@ -39,6 +39,9 @@ HERE = 0.01
 
 AWAY = math.radians(40)
 """The view of the pallet is clear when the flange's heading is this far from the pallet's."""
+
+ASIDE = PlaceId("aside")
+"""What task files call the storage that boxes are set aside into."""
 
 SPOTS = 4
 """So many spots of one place are tried."""
@@ -270,20 +273,22 @@ class Desk:
         cell_from_place = layout.places[place].cell_from_place
         scene = self._around.scene(self._work.pile, without=load.box)
         reason = "no room"
-        for spot in find_spots(self.books.at(place), held, limit=SPOTS):
+
+        def berth_at(spot: Spot) -> Berth:
             target = target_of(cell_from_place, spot, turn)
+            return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
+
+        spots = find_spots(
+            self.books.at(place),
+            held,
+            limit=SPOTS,
+            reachable=lambda spot: not self._mover.why_no_put(load.start, berth_at(spot), scene),
+        )
+        for spot in spots:
+            berth = berth_at(spot)
             put = self._measured(
-                lambda target=target, spot=spot: self._mover.put(
-                    load.lead,
-                    load.start,
-                    load.grasp,
-                    load.size,
-                    cell_from_place,
-                    target,
-                    spot.depth + held.size[0],
-                    scene,
-                    MARGINS.lift,
-                    self._effort(),
+                lambda berth=berth: self._mover.put(
+                    load.lead, load.start, berth, scene, self._effort()
                 )
             )
             if isinstance(put, NoMotion):
@@ -296,7 +301,7 @@ class Desk:
             if motion is None or descent is None:
                 reason = "the suction would not hold it"
                 continue
-            return CarryPlan(load, place, spot, target, motion, descent, put.retreat.path)
+            return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
         return reason
 
     def _is_fixed(self, place: PlaceId) -> bool:
@@ -326,7 +331,14 @@ class Desk:
             self._next_start = kept.end
             return kept
         self._release_spot(box)
-        return await self.find_place(box, (place,))
+        return await self.find_place(box, self._places_named(place))
+
+    def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
+        """The place itself, or all of the storage that boxes are set aside into."""
+        if place != ASIDE:
+            return (place,)
+        storage = self._work.layout.storage(self._work.layout.aside)
+        return tuple(each.id for each in storage.places)
 
     def carry_in_hand(self, box: BoxId) -> CarryPlan:
         """The plan that brought the held box into its place."""
