@@ -81,6 +81,19 @@ def test_the_default_arm_has_the_published_limits() -> None:
     assert times == pytest.approx([0.45, 0.45, 0.40, 0.30, 0.30, 0.25])
 
 
+def test_a_plinth_raises_the_arm_and_stands_under_it() -> None:
+    """Its shoulder, and what of it turns about axis 1; the block is as large as the base."""
+    low, high = cell_of_yaml(edited("plinth: 0.15", "plinth: 0.0"), ""), shipped_cell()
+    assert high.robot.geometry.c1 == pytest.approx(low.robot.geometry.c1 + 0.15)
+    for one, other in zip(low.robot.shapes, high.robot.shapes, strict=True):
+        rise = other.start[2] - one.start[2]
+        assert rise == pytest.approx(0.15 if one.link <= 1 else 0.0)
+    assert len(high.fixtures) == len(low.fixtures) + 1
+    block = high.fixtures[-1].corners
+    assert block.min(axis=0) == pytest.approx((-0.38, -0.32, 0.0))
+    assert block.max(axis=0) == pytest.approx((0.38, 0.32, 0.15))
+
+
 def test_the_lower_module_faces_down_and_folds_up_beside_the_front_one() -> None:
     """As the face frames say: x out of the face."""
     tool = shipped_cell().tool
@@ -184,9 +197,13 @@ MISTAKES = [
     ("name: trolley_2", "name: trolley_1", "'trolley_1' is already the name of line"),
     ("trolley_2, model: trolley", "trolley_2, model: troley", "no model 'troley'; did you mean"),
     ("name: trolley_2", "name: a/b", "'a/b' is no name; expected letters, digits"),
-    ("{floor: 0.60, height: 0.42}", "{floor: 0.55, height: 0.42}", "reaches into the level below"),
+    ("{floor: 1.05, height: 0.80}", "{floor: 1.02, height: 0.80}", "reaches into the level below"),
     ("{floor: 0.15, ", "{floor: 0.10, ", "0.1 m reaches into the base, which ends at 0.12 m"),
-    ("height: 0.70}", "height: 0.80}", "highest level ends at 1.85 m, the storage at 1.75 m"),
+    (
+        "1.05, height: 0.80}",
+        "1.05, height: 0.90}",
+        "highest level ends at 1.95 m, the storage at 1.85 m",
+    ),
     ("wall: 0.02 ", "wall: 0.40 ", "the walls leave no room inside"),
     ("pitch: 0.10}", "pitch: 0.05}", "cups of 0.06 m overlap at a pitch of 0.05 m"),
     ("along_y: 3", "along_y: 4", "the cups are 0.36 m wide along y, the module 0.3"),
