@@ -77,25 +77,23 @@ def _checked(what: str, report: dict[str, object]) -> Line:
 
 def selection() -> Iterator[Line]:
     """`depal bench selection`."""
-    yield from _benched("selection", "networkx")
+    yield from _benched("selection")
 
 
 def executive() -> Iterator[Line]:
     """`depal bench executive`."""
-    yield from _benched("executive", "py_trees")
+    yield from _benched("executive")
 
 
-def _benched(part: str, peer_name: str) -> Iterator[Line]:
+def _benched(part: str) -> Iterator[Line]:
     report, _ = depal("bench", part)
     figures = report["figures"]
     assert isinstance(figures, list)  # noqa: S101 - our own file
     for figure in figures:
         value, target, unit = figure["value"], figure["target"], figure["unit"]
-        name = "GTPyhop" if figure["name"].startswith("allocate") else peer_name
-        peer = "" if figure["peer"] is None else f" ({name}: {figure['peer']:.3g})"
-        yield Line(
-            figure["name"], f"<= {target:g} {unit}", f"{value:.3g} {unit}{peer}", value <= target
-        )
+        peers = ", ".join(f"{name}: {peer:.3g}" for name, peer in figure["peers"].items())
+        said = f"{value:.3g} {unit}" + (f" ({peers})" if peers else "")
+        yield Line(figure["name"], f"<= {target:g} {unit}", said, value <= target)
 
 
 def crashes() -> Iterator[Line]:

@@ -140,6 +140,9 @@ def test_a_task_is_explored_and_its_hazards_end_with_status_1(run: Run, tmp_path
     hazards = json.loads(report.read_text())["hazards"]
     assert hazards[0]["trace"][-1]["what"] == "kr60_reach(b1) starts"
     assert run("explore", "store", "--limit", 10)[1].count("the limit was reached") == 1
+    status, out = run("explore", "store", "store(b1)", "store(b2)")
+    assert status == 0
+    assert "together(store(b1), store(b2)): all " in out
 
 
 def test_an_exploration_may_start_from_given_facts(run: Run, tmp_path: Path) -> None:

@@ -7,7 +7,7 @@ from worlds import STORE
 
 from depal.executive import conditions as c
 from depal.executive import events as ev
-from depal.executive.compiled import Compiler, Span
+from depal.executive.atoms import Atoms, Subject, filled, members, stand_ins
 from depal.executive.emphasis import EmphasisWeights, rank, resting_emphasis
 from depal.executive.engine import Call, Engine, Report, Step
 from depal.executive.events import Outcome
@@ -85,9 +85,31 @@ CONDITIONS: st.SearchStrategy[c.Condition] = st.recursive(
 BINDING = {"X": "x", "Y": "y"}
 
 
-def no_span(_: c.Lasting, __: c.Binding) -> Span:
-    """None of these conditions mentions time."""
-    raise AssertionError
+class Read:
+    """A condition, read once for all things."""
+
+    def __init__(self, condition: c.Condition, facts: dict[str, c.Value]) -> None:
+        """Reads it for stand-ins."""
+        self.atoms = Atoms(facts)
+        binding = dict(zip(("X", "Y"), stand_ins(2), strict=True))
+        self.formula, self.mentioned = self.atoms.read(condition, binding)
+
+    def subject(self, *things: str) -> Subject:
+        """Some things."""
+        return Subject(filled(self.atoms.words)(things), ())
+
+    def holds(self, *things: str) -> bool:
+        """Its value for them."""
+        true = 0
+        for number, atom in enumerate(self.atoms.found):
+            true |= atom.test(self.subject(*things)) << number
+        return self.formula(true)
+
+    def watches(self, *things: str) -> list[object]:
+        """What it is told of."""
+        subject = self.subject(*things)
+        atoms = [self.atoms.found[number] for number in members(self.mentioned)]
+        return [watch for atom in atoms for watch in atom.watches(subject)]
 
 
 @given(CONDITIONS, FACTS, st.sampled_from(KEYS), VALUES)
@@ -95,16 +117,14 @@ def test_a_grounded_condition_means_what_the_written_one_means(
     condition: c.Condition, facts: dict[str, c.Value], key: str, value: c.Value
 ) -> None:
     """Before and after any change, and whoever's value has changed was to be told of it."""
-    compiler = Compiler(facts, no_span)
-    test, watches = compiler.ground(condition, BINDING)
-    again, _ = compiler.ground(condition, {"X": "y", "Y": "x"})
-    before, old = test(), facts.get(key)
+    read = Read(condition, facts)
+    before, old = read.holds("x", "y"), facts.get(key)
     assert before is c.holds(condition, facts, BINDING, c.at_once)
     facts[key] = value
-    assert test() is c.holds(condition, facts, BINDING, c.at_once)
-    assert again() is c.holds(condition, facts, {"X": "y", "Y": "x"}, c.at_once)
-    if test() != before:
-        assert {key, (key, old), (key, value)} & set(watches)
+    assert read.holds("x", "y") is c.holds(condition, facts, BINDING, c.at_once)
+    assert read.holds("y", "x") is c.holds(condition, facts, {"X": "y", "Y": "x"}, c.at_once)
+    if read.holds("x", "y") != before:
+        assert {key, (key, old), (key, value)} & set(read.watches("x", "y"))
 
 
 @pytest.mark.parametrize("op", sorted(c.COMPARISONS))
@@ -116,19 +136,45 @@ def test_a_grounded_comparison_means_what_the_written_one_means(
     """Every operator, with numbers, names and nothing on the left."""
     fact = c.FactRef(c.Literal("x"), "p")
     condition = c.Compare(fact, op, c.Literal(right))
-    test, _ = Compiler({"x.p": left}, no_span).ground(condition, BINDING)
-    assert test() is c.holds(condition, {"x.p": left}, BINDING, c.at_once)
+    holds = Read(condition, {"x.p": left}).holds("x", "y")
+    assert holds is c.holds(condition, {"x.p": left}, BINDING, c.at_once)
 
 
 def test_a_comparison_with_one_value_is_not_told_of_others() -> None:
-    """So a thousand trees that wait for `kr60.at` do not all wake when it moves."""
+    """So a thousand trees that wait for `kr60.at` are not all looked at when it moves."""
     at = c.FactRef(c.Literal("kr60"), "at")
-    compiler = Compiler({}, no_span)
     for op in ("=", "!="):
-        _, watches = compiler.ground(c.Compare(at, op, c.Var("X")), BINDING)
-        assert watches == (("kr60.at", "x"),)
-    _, watches = compiler.ground(c.Compare(at, "<", c.Literal(2.0)), BINDING)
-    assert watches == ("kr60.at",)
+        assert Read(c.Compare(at, op, c.Var("X")), {}).watches("b1", "b2") == [("kr60.at", "b1")]
+    assert Read(c.Compare(at, "<", c.Literal(2.0)), {}).watches("b1", "b2") == ["kr60.at"]
+
+
+def test_only_what_names_the_first_argument_is_a_trees_own() -> None:
+    """All else may be shared by a thousand trees; such atoms are watched while they matter."""
+    taken, full = c.FactRef(c.Var("X"), "p"), c.FactRef(c.Var("Y"), "p")
+    at = c.FactRef(c.Literal("kr60"), "at")
+    for condition, own in (
+        (c.Holds(taken), True),
+        (c.Compare(taken, "=", c.Var("Y")), True),
+        (c.Holds(full), False),
+        (c.Holds(at), False),
+        (c.Compare(taken, "=", full), False),
+        (c.Compare(at, "=", c.Var("X")), True),
+        (c.Compare(at, "=", c.Var("Y")), False),
+        (c.Compare(at, "=", c.Literal("reader")), False),
+        (c.Compare(at, "=", taken), False),
+    ):
+        assert [atom.own for atom in Read(condition, {}).atoms.found] == [own]
+
+
+@given(CONDITIONS, CONDITIONS)
+def test_what_is_the_same_for_all_things_is_one_atom(one: c.Condition, two: c.Condition) -> None:
+    """Whichever condition mentions it, and under whichever name of a parameter."""
+    atoms = Atoms({})
+    x, y = stand_ins(2)
+    atoms.read(c.AllOf((one, two)), {"X": x, "Y": y})
+    before = len(atoms.found)
+    atoms.read(two, {"X": x, "Y": y})
+    assert len(atoms.found) == before
 
 
 # Time
@@ -351,8 +397,10 @@ def test_a_fault_whose_tree_has_ended_starts_nothing_when_it_is_cleared() -> Non
     engine = Engine(tasks(_SOFT.replace("retries 2", "retries 0")))
     engine.allocate([Call("soft", ("b1",))], 0.0)
     end(engine, "soft(b1)", Outcome.FAILED, 1.0)
+    assert len(engine.state.faults) == 1
     engine.withdraw(1, "enough", 2.0)
     assert engine.state.trees == {}
+    assert len(engine.state.faults) == 0
     step = engine.change([("b1.fault", None)], "person", 3.0)
     assert kinds(step) == ["Changed"]
     assert not engine.state.waiting
@@ -672,3 +720,140 @@ def test_a_task_that_opens_again_keeps_what_it_still_uses() -> None:
     engine.report(grasp.number, Report((("b1.taken", True),)), 5.0)
     running = [attempt.node.node.label for attempt in engine.state.attempts.values()]
     assert running == ["kr60_show(b1)"]
+
+
+@pytest.mark.parametrize(("order", "gets_the_arm"), [("before", "held"), ("after", "other")])
+def test_who_is_to_go_on_with_a_held_box_is_allocated_before_its_task_is_withdrawn(
+    order: str, gets_the_arm: str
+) -> None:
+    """A withdrawn task lets the arm go at once, whatever the gripper holds."""
+    engine = Engine(
+        tasks(
+            """
+task first(Box) until Box.b keeps hand
+  - grab(Box)
+  - put(Box)  when Box.a
+task instead(Box) until Box.c keeps hand
+  - lay(Box)  when Box.a
+action grab(Box) until Box.a uses hand sets Box.a
+action put(Box) until Box.b uses hand sets Box.b, Box.a
+action lay(Box) until Box.c uses hand sets Box.c, Box.a
+"""
+        )
+    )
+    engine.allocate([Call("first", ("held",)), Call("first", ("other",))], 0.0)
+    end(engine, "grab(held)", Outcome.DONE, 1.0, "held.a")
+    end(engine, "put(held)", Outcome.FAILED, 2.0)
+    assert running(engine) == []
+    instead = [Call("instead", ("held",), 1000.0)]
+    if order == "before":
+        assert kinds(engine.allocate(instead, 3.0)) == ["Allocated"]
+    engine.withdraw(1, "it cannot be put there", 3.0)
+    if order == "after":
+        engine.allocate(instead, 3.0)
+    (attempt,) = engine.state.attempts.values()
+    assert attempt.node.node.args == (gets_the_arm,)
+
+
+def test_who_waits_has_waited_since_its_own_gate_opened() -> None:
+    """What else moves in its tree does not make it younger."""
+    engine = Engine(
+        tasks(
+            """
+task both(Box) until Box.c
+  - left(Box)
+  - right(Box)  when Box.b
+action left(Box) until Box.a uses hand sets Box.a
+action right(Box) until Box.c uses belt sets Box.c
+"""
+        )
+    )
+    engine.hold("person", 0.0)
+    engine.allocate([Call("both", ("b1",))], 1.0)
+    _, left, right = engine.state.trees[1].nodes
+    for at, value in ((2.0, True), (3.0, False), (4.0, True)):
+        engine.change([("b1.b", value)], "world", at)
+        assert left.waiting_since == 1.0
+        assert engine.state.waiting.waits(right) is value
+    assert right.waiting_since == 4.0
+
+
+def test_a_success_below_a_closed_gate_forgets_the_failures_too() -> None:
+    """Its second failure in a row would be its last."""
+    engine = Engine(
+        tasks(
+            """
+task work(Box) when not Box.stop until Box.c
+  - do(Box)
+action do(Box) until Box.a uses hand sets Box.a cancel never retries 1
+"""
+        )
+    )
+    engine.allocate([Call("work", ("b1",))], 0.0)
+    end(engine, "do(b1)", Outcome.FAILED, 1.0)
+    engine.tick(2.0)
+    engine.change([("b1.stop", True)], "world", 3.0)
+    end(engine, "do(b1)", Outcome.DONE, 4.0, "b1.a")
+    engine.change([("b1.stop", None), ("b1.a", None)], "world", 5.0)
+    end(engine, "do(b1)", Outcome.FAILED, 6.0)
+    assert "b1.fault" not in engine.state.facts
+    assert engine.state.facts["b1.attempts"] == 1.0
+
+
+def test_a_snapshot_keeps_every_value_as_it_is() -> None:
+    """Whole numbers, halves of surrogate pairs, and the sign of zero."""
+    head = "fact Box.n : number?\nfact Box.t : text?\n"
+    engine = Engine(parse(head, "values"))
+    values = [1, 1.0, -0.0, 2**80, 1e300, "x", "\u00e4\u2713", '"', "\ud800"]
+    for number, value in enumerate(values):
+        key = f"b{number}.{'t' if isinstance(value, str) else 'n'}"
+        engine.change([(key, value)], "world", 1.5)
+        text = freeze(engine.state)
+        thawed = thaw(engine.repository, engine.state.weights, text)
+        assert repr(sorted(thawed.facts.items())) == repr(sorted(engine.state.facts.items()))
+        assert freeze(thawed) == text
+
+
+def test_a_time_condition_that_is_mentioned_twice_is_one() -> None:
+    """In a row, with others before and after it."""
+    engine = Engine(
+        tasks(
+            """
+task work(Box) until Box.c
+  - one(Box)  when Box.a for 1 s and not (Box.a for 1 s) or Box.a for 1 s
+  - two(Box)  when Box.b for 5 s and Box.a for 1 s
+action one(Box) until Box.c uses hand sets Box.c
+action two(Box) until Box.c uses belt sets Box.c
+"""
+        )
+    )
+    engine.change([("b1.a", True), ("b1.b", True)], "world", 0.0)
+    engine.allocate([Call("work", ("b1",))], 0.0)
+    engine.tick(1.0)
+    assert running(engine) == ["one(b1)"]
+    engine.tick(4.0)
+    assert running(engine) == ["one(b1)"]
+    engine.tick(5.0)
+    assert running(engine) == ["one(b1)", "two(b1)"]
+
+
+def test_a_keeper_goes_on_with_what_somebody_outside_has_reserved() -> None:
+    """Else the two would wait for each other: the one outside for the keeper's own resource."""
+    engine = Engine(
+        tasks(
+            """
+task keep(Box) until Box.c keeps hand
+  - hold(Box)
+  - pass(Box)  when Box.a
+action hold(Box) until Box.a uses hand sets Box.a
+action pass(Box) until Box.c uses hand, belt sets Box.c
+action occupy(Box) until Box.a uses arm sets Box.a
+action large(Box) until Box.b uses arm, belt sets Box.b
+"""
+        )
+    )
+    engine.allocate([Call("keep", ("b1",)), *(Call("occupy", (f"x{n}",)) for n in (1, 2))], 0.0)
+    engine.allocate([Call("large", ("b2",), 5.0)], 1.0)
+    assert running(engine) == ["hold(b1)", "occupy(x1)", "occupy(x2)"]
+    end(engine, "hold(b1)", Outcome.DONE, 2.0, "b1.a")
+    assert "pass(b1)" in running(engine)

@@ -146,9 +146,10 @@ def test_the_incremental_result_equals_a_full_sweep(name: str, seed: int) -> Non
         for tree in state.trees.values():
             for node, swept in zip(tree.nodes, state.standings(tree), strict=True):
                 assert node.gate == (swept.gate and tree.withdrawn is None)
-                if node.awake:
-                    assert node.holds_pre == swept.pre
-                    assert node.holds_post == swept.post
+                if tree.gates.awake >> node.node.index & 1:
+                    part = tree.plan.parts[node.node.index]
+                    assert part.pre(tree.true) == swept.pre
+                    assert part.post(tree.true) == swept.post
                 may_run = node.gate and node.node.concrete and node.attempt is None
                 if state.waiting.waits(node):
                     assert may_run
@@ -357,6 +358,10 @@ def test_a_time_condition_holds_after_its_time_without_a_break() -> None:
         (
             lambda e: e.change([("arm.at", "b1")], "camera", 0.0),
             "camera: arm.at: 'arm' has no fact 'at'; there is: kr60",
+        ),
+        (
+            lambda e: e.change([("b1.attempts", float("nan"))], "camera", 0.0),
+            "camera: b1.attempts: nan is no value for it; expected number",
         ),
         (lambda e: e.withdraw(7, "x", 0.0), "trees: no tree 7; there is none"),
     ],

@@ -123,7 +123,7 @@ def test_a_primitive_without_effect_has_failed() -> None:
 
 def test_a_primitive_that_hangs_and_may_not_be_broken_off_raises_a_fault() -> None:
     """`cancel never`: it is told, it keeps the arm, and a person is needed."""
-    reasons, facts, _ = outcome_of(_hangs)
+    reasons, facts, _ = outcome_of(_hangs, 200.0)
     assert "its time is over" in reasons
     assert facts["b1.fault"] == "kr60_grasp"
 

@@ -36,7 +36,7 @@ from depal.ports import Trajectory
 
 EURO = (1.2, 0.8, 0.144)
 GEOMETRY = ArmGeometry(0.35, -0.145, 0.0, 0.815, 0.85, 0.82, 0.17)
-PARKED = (0.0, math.radians(-100), math.radians(110), 0.0, math.radians(-10), 0.0)
+PARKED = (math.radians(-70), math.radians(-95), math.radians(110), 0.0, math.radians(60), 0.0)
 REACHING = (0.0, math.radians(-60), math.radians(60), 0.0, 0.0, 0.0)
 
 
@@ -126,7 +126,8 @@ def layout() -> CellLayout:
     """A cell with two trolleys."""
     right, down, forward = (0, -1, 0), (0, 0, -1), (1, 0, 0)
     columns = tuple(zip(right, down, forward, strict=True))
-    camera = CameraMount("mast", Pose((0.2, 0.0, 1.6), columns), (1080, 1920), (720, 1280), 1.2)
+    eye = Pose((0.2, -0.5, 1.3), columns)
+    camera = CameraMount("mast", eye, (1920, 1080), (1280, 720), 1.6)
     reader = ReaderMount(Pose((0.8, 1.2, 0.8), columns), 0.4, (0.3, 0.2), (1280, 960))
     return CellLayout(
         name="test",
@@ -159,7 +160,7 @@ def delivery(
 
 def point_to_point(start: Joints, end: Joints, seconds: float) -> Trajectory:
     """A smooth joint motion of the fifth degree from rest to rest."""
-    u = np.linspace(0.0, 1.0, max(int(seconds / 0.02), 2) + 1)
+    u = np.linspace(0.0, 1.0, max(int(seconds / 0.01), 2) + 1)
     share = 10 * u**3 - 15 * u**4 + 6 * u**5
     rate = 30 * u**2 * (1 - u) ** 2 / seconds
     first, way = np.array(start), np.array(end) - np.array(start)

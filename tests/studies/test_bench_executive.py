@@ -13,6 +13,7 @@ from depal.executive.journal import SqliteJournal
 from depal.executive.restart import restored
 from depal.executive.snapshot import freeze
 from depal.studies.bench import Figure, bench_executive
+from depal.studies.bench.executive_cpp import CppForest, behaviortree_cpp_tick
 from depal.studies.bench.executive_peers import (
     Forest,
     gtpyhop_plan,
@@ -97,16 +98,30 @@ def test_percentiles_are_values_that_occur() -> None:
 def test_behaviour_trees_do_the_same_work_where_they_are_installed() -> None:
     """All seven actions of each store in their order, one store after the other."""
     forest = Forest(pytest.importorskip("py_trees"), stores=3)
-    ran = []
-    for _ in range(14):
-        ran.append(forest.running[0])
-        forest.end_one()
-        forest.tick()
-    assert ran == ORDER * 2
-    assert forest.stored == 2
+    _does_two_stores(forest)
     seconds = py_trees_tick(stores=2, ticks=5)
     assert seconds is not None
     assert seconds > 0
+
+
+def test_behaviour_trees_in_cpp_do_the_same_work_where_they_are_installed() -> None:
+    """The same, on the library's own blackboards."""
+    forest = CppForest(pytest.importorskip("behaviortreepy"), stores=3)
+    _does_two_stores(forest)
+    seconds = behaviortree_cpp_tick(stores=2, ticks=5)
+    assert seconds is not None
+    assert seconds > 0
+
+
+def _does_two_stores(forest: Forest | CppForest) -> None:
+    ran = []
+    for _ in range(14):
+        ran.append(forest.running)
+        forest.end_one()
+        forest.tick()
+    assert ran == [(action, box) for box in ("b1", "b2") for action in ORDER]
+    assert forest.stored == 2
+    assert forest.running == (ORDER[0], "b3")
 
 
 def test_a_planner_plans_the_same_work_where_it_is_installed() -> None:
@@ -122,7 +137,8 @@ def test_a_planner_plans_the_same_work_where_it_is_installed() -> None:
 
 def test_peers_that_are_not_installed_have_no_figure(monkeypatch: pytest.MonkeyPatch) -> None:
     """None, not a guess."""
-    for name in ("py_trees", "gtpyhop"):
+    for name in ("py_trees", "gtpyhop", "behaviortreepy"):
         monkeypatch.setitem(sys.modules, name, None)
     assert py_trees_tick(stores=1, ticks=1) is None
     assert gtpyhop_plan(boxes=1) is None
+    assert behaviortree_cpp_tick(stores=1, ticks=1) is None

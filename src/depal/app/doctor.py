@@ -20,7 +20,18 @@ from depal.selection.links import Links
 from depal.selection.walks import propagate
 
 _OLDEST_PYTHON = (3, 11)
-_NEEDED = ("numpy", "scipy", "numba", "pydantic", "typer", "rich", "matplotlib", "biip", "PyYAML")
+_NEEDED = (
+    "numpy",
+    "scipy",
+    "numba",
+    "pydantic",
+    "msgspec",
+    "typer",
+    "rich",
+    "matplotlib",
+    "biip",
+    "PyYAML",
+)
 _OPTIONAL = {"distributed": "sweeps on a Dask cluster", "networkx": "a peer in depal bench"}
 
 

@@ -15,8 +15,9 @@ from depal.errors import Problem, SettingError, TaskError, did_you_mean
 from depal.executive.checking import Finding, check
 from depal.executive.conditions import Value, at_once
 from depal.executive.drawing import tree_mermaid, tree_svg, tree_text
-from depal.executive.exploring import Exploration, TraceStep, explore
+from depal.executive.exploring import Exploration, TraceStep, explore, together
 from depal.executive.exploring.grounding import conditions_of
+from depal.executive.exploring.together import NAME
 from depal.executive.language import format_repository, read_tasks
 from depal.executive.schema import Repository, Schema, Task
 from depal.executive.tree import Tree, ground, sweep
@@ -113,6 +114,24 @@ def tree_of(name: str, call: str) -> tuple[Repository, Tree]:
     return repository, ground(repository, schema.name, args)
 
 
+def trees_of(name: str, calls: Sequence[str]) -> tuple[Repository, Tree]:
+    """Allocates tasks of a file; several of them as one.
+
+    Args:
+        name: of the file.
+        calls: see `tree_of`; none is the same as an empty one.
+
+    Raises:
+        InputError: see `tree_of`.
+    """
+    trees = [tree_of(name, call) for call in calls or [""]]
+    if len(trees) == 1:
+        return trees[0]
+    roots = [(tree.root.schema.name, tree.root.args) for _, tree in trees]
+    repository, labels = together(trees[0][0], roots)
+    return repository, ground(repository, NAME, labels)
+
+
 def _called(repository: Repository, name: str, call: str) -> tuple[Schema, tuple[str, ...]]:
     tasks = {one.name: one for one in repository.schemata.values() if isinstance(one, Task)}
     inner = {step.schema for task in tasks.values() for step in task.steps}
@@ -186,18 +205,18 @@ def value_of(written: str) -> Value:
 
 def explore_report(
     name: str,
-    call: str,
+    calls: Sequence[str],
     *,
     limit: int,
     disturb: Sequence[str],
     split: bool,
     facts: str | None,
 ) -> Report:
-    """Explores a task.
+    """Explores a task, or several at once.
 
     Args:
         name: of the file.
-        call: see `tree_of`.
+        calls: see `trees_of`.
         limit: of the number of states.
         disturb: facts that change by themselves, as in "Box.taken" or "Box.taken=false".
         split: whether changes of several facts come one by one.
@@ -206,7 +225,7 @@ def explore_report(
     Returns:
         What was found; it holds where there is no hazard.
     """
-    repository, tree = tree_of(name, call)
+    repository, tree = trees_of(name, calls)
     wanted: dict[str, list[Value]] = {}
     for part in disturb:
         key, sign, value = part.partition("=")

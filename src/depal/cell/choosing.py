@@ -2,7 +2,8 @@
 
 from dataclasses import dataclass
 
-from depal.cell.desk import Desk, PickPlan
+from depal.cell.planning.desk import Desk
+from depal.cell.planning.plans import PickPlan
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Perceived
 from depal.selection import BlockingGraph, Decision, Refused, ScoreRule, select

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Mapping, Sequence
 
 from depal.cell.departures import Fate
-from depal.cell.desk import Desk
+from depal.cell.planning.desk import Desk
 from depal.cell.guards import Guards
 from depal.cell.primitives.checking import Checking
 from depal.cell.primitives.exchanging import Exchanging
@@ -25,6 +25,9 @@ from depal.executive.schema import Repository
 from depal.ports import Question
 
 STORE, ASIDE = "store", "set_aside"
+
+FIRST = 10.0
+"""A priority above that of any request."""
 
 
 class Controller:
@@ -97,14 +100,18 @@ class Controller:
 
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
         work, runtime = self.work, self.runtime
+        taken = runtime.engine.state.facts.get(f"{box}.taken")
+        if taken and schema == STORE:
+            # First of all its successor: the arm goes from the one to the other.
+            work.aside_reasons[box] = fault
+            runtime.allocate(Call(ASIDE, (box,), FIRST))
         runtime.withdraw(number, fault)
         runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
-        if not runtime.engine.state.facts.get(f"{box}.taken"):
+        if not taken:
             work.left_behind[box] = fault
             work.gone(box).set()
         elif schema == STORE:
-            work.aside_reasons[box] = fault
-            runtime.allocate(Call(ASIDE, (box,)))
+            return
         else:
             task = asyncio.get_running_loop().create_task(self._hand_over(box, fault))
             self._later.add(task)

@@ -26,7 +26,7 @@ def selection(seed: Seed = 0, json_file: JsonFile = None) -> None:
 
 @bench.command()
 def executive(json_file: JsonFile = None) -> None:
-    """Events, allocation, commands, journal, restart, a simulated day; py_trees and GTPyhop."""
+    """Events, allocation, commands, journal, restart, a simulated day; with peers beside it."""
     from depal.app.files import checked_target, write_json  # noqa: PLC0415 - fast help
     from depal.app.progress import progress_bar  # noqa: PLC0415
     from depal.app.reports import bench_report  # noqa: PLC0415

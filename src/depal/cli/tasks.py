@@ -72,7 +72,14 @@ def show(
 @tasks.command()
 def explore(
     file: File,
-    task: Annotated[str, typer.Argument(help="As in store(b1), or store.")] = "",
+    calls: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[TASK...]",
+            help="As in store(b1), or store; several at once.",
+            show_default=False,
+        ),
+    ] = None,
     limit: Annotated[int, typer.Option(help="Of the number of states.", min=1)] = 100_000,
     disturb: Annotated[
         list[str] | None,
@@ -88,13 +95,13 @@ def explore(
     facts: Facts = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Walk every state of a task, crashes included; exit status 1 where there is a hazard."""
+    """Walk every state of tasks, crashes included; exit status 1 where there is a hazard."""
     from depal.app.files import checked_target  # noqa: PLC0415 - fast help
     from depal.app.tasks import explore_report  # noqa: PLC0415
 
     checked_target(json_file, "--json")
     report = explore_report(
-        file, task, limit=limit, disturb=disturb or [], split=split, facts=facts
+        file, calls or [], limit=limit, disturb=disturb or [], split=split, facts=facts
     )
     _finish(report, json_file)
 

@@ -1,8 +1,9 @@
 """When cups let go: the load on a group of cups against what its vacuum holds.
 
-The vacuum presses the lips on the box; the plate behind them is stiff. A pull takes from that
-pressure evenly, a moment shifts it towards one edge, and where it is gone the edge lifts. Shear,
-and the twist about the normal, are carried by friction under what pressure is left.
+The vacuum presses the lips on the box, and both are stiff against tilting: cleats in the cups. A
+pull takes from that pressure; a moment moves its centre, and where this would leave the outline of
+the lips, the box tips about one edge and lifts the other. Shear, and the twist about the normal,
+are carried by friction under what pressure is left.
 """
 
 import math
@@ -11,6 +12,7 @@ from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
+from scipy.spatial import ConvexHull
 
 Floats = npt.NDArray[np.float64]
 
@@ -34,8 +36,8 @@ class CupGroup:
         middle: the mean of their centres, in the face's y and z [m].
         count: of cups.
         friction: of a cup on the box.
-        tension_from_moment: (m, 2) what a moment about y and one about z take from the pressure at
-            each point of the lips, as a force on the whole group [N / N m].
+        tension_from_moment: (m, 2) the pressure that a moment about y and one about z need to be
+            held, for tipping about each edge of the lips' outline [N / N m].
         arm: the lever of the twist about the normal [m].
     """
 
@@ -52,11 +54,11 @@ class CupGroup:
         angles = np.arange(RIM) * 2 * np.pi / RIM
         ring = radius * np.stack((np.cos(angles), np.sin(angles)), axis=1)
         rim = ((cups - middle)[:, None, :] + ring[None, :, :]).reshape(-1, 2)
-        second = rim.T @ rim / len(rim)
-        # A tension t at (y, z) has the moment z t about y and -y t about z.
-        turned = np.array([[0.0, -1.0], [1.0, 0.0]])
-        tension = rim @ np.linalg.inv(second) @ turned
-        arm = math.sqrt(float(np.trace(second)))
+        arm = math.sqrt(float((rim**2).mean(axis=0).sum()))
+        # The pressure's centre (M_z, -M_y) / N stays within n . p <= reach for every edge.
+        outward = ConvexHull(rim).equations
+        normals, reach = outward[:, :2], -outward[:, 2:]
+        tension = np.stack((-normals[:, 1], normals[:, 0]), axis=1) / reach
         return cls((float(middle[0]), float(middle[1])), len(cups), friction, tension, arm)
 
     def load_share(self, force: Floats, moment: Floats, vacuum_force: float) -> tuple[float, Break]:

@@ -1,16 +1,15 @@
 """Winner takes all: which of the waiting primitives start, and which running ones give way."""
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from depal.executive.emphasis import EmphasisWeights, rank, resting_emphasis
+from depal.executive.emphasis import EmphasisWeights, resting_emphasis
 from depal.executive.holdings import Holdings
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Cancel
 from depal.executive.waiting import Waiting
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(NamedTuple):
     """What one look at everybody decides: one node to start, or attempts to break off.
 
     Attributes:
@@ -50,17 +49,20 @@ def arbitrate(
     Returns:
         The node to start (call again afterwards), or whom it should displace, or nothing.
     """
-    if not waiting:
+    candidates = _candidates(waiting, holdings)
+    if not candidates:
         return NOTHING
     reserved: set[str] = set()
     displaced: list[tuple[Attempt, LiveNode]] = []
-    for node in _candidates(waiting, holdings, weights):
+    for node in candidates:
         claim = node.action.uses
         if any(holdings.is_kept_from(node, name) for name in claim):
             continue
-        inside = any(holdings.keeper_above(node, name) is not None for name in claim)
         busy = [name for name in claim if not holdings.is_free_for(node, name)]
-        if not busy and (inside or not reserved.intersection(claim)):
+        if not busy and (
+            reserved.isdisjoint(claim)
+            or any(holdings.keeper_above(node, name) is not None for name in claim)
+        ):
             return Verdict(start=node)
         for name in busy:
             holder = _displaceable(node, name, holdings, attempts, weights, now)
@@ -70,15 +72,15 @@ def arbitrate(
     return Verdict(contested=bool(reserved), displace=tuple(displaced))
 
 
-def _candidates(waiting: Waiting, holdings: Holdings, weights: EmphasisWeights) -> list[LiveNode]:
+def _candidates(waiting: Waiting, holdings: Holdings) -> list[LiveNode]:
     """The first of every claim, and everybody inside a keeper; best first, in a total order."""
     found = waiting.firsts(holdings.closed)
     for keeper in holdings.keepers:
-        found += [
-            (-rank(node, weights), node.place, node)
-            for node in waiting.of_tree(keeper.tree.number)
-            if node.is_within(keeper)
-        ]
+        for node in waiting.of_tree(keeper.tree.number):
+            if node.is_within(keeper):
+                found.append((-node.rank, node.place, node))
+    if len(found) < 2:  # noqa: PLR2004 - nothing to choose
+        return [node for _, _, node in found]
     found.sort(key=_order)
     return list({place: node for _, place, node in found}.values())
 

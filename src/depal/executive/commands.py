@@ -1,12 +1,11 @@
 """What the engine tells the rim to do, once the events behind it are written."""
 
-from dataclasses import dataclass
+import msgspec
 
 from depal.executive.schema import Action, Cancel
 
 
-@dataclass(frozen=True, slots=True)
-class Start:
+class Start(msgspec.Struct, frozen=True):
     """Run a primitive.
 
     Attributes:
@@ -20,8 +19,7 @@ class Start:
     args: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Stop:
+class Stop(msgspec.Struct, frozen=True):
     """Break off an attempt, as its policy says.
 
     Attributes:
@@ -35,8 +33,7 @@ class Stop:
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Probe:
+class Probe(msgspec.Struct, frozen=True):
     """Find out what an attempt in doubt has done.
 
     Attributes:

@@ -1,4 +1,4 @@
-"""Conditions over facts: as written, grounded in names, compiled, explained.
+"""Conditions over facts: as written, grounded in names, explained.
 
 A fact's value is a flag, a number, a text, the name of a thing, or None where it is empty. The
 world is closed: what is not set is false, and no comparison with it holds.
@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Final
 
-Value = bool | float | str | None
+Value = bool | int | float | str | None
 """What a fact holds."""
 
 Key = str

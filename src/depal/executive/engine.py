@@ -7,18 +7,19 @@ events of the same transaction. The rim writes the events and only then carries 
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from depal.errors import Problem, TaskError, did_you_mean
 from depal.executive import events as ev
 from depal.executive.arbitration import arbitrate
 from depal.executive.commands import Command, Probe, Start, Stop
-from depal.executive.conditions import Value, key_of
+from depal.executive.conditions import key_of
+from depal.executive.declared import Declared
 from depal.executive.emphasis import EmphasisWeights
 from depal.executive.events import Change, Outcome
 from depal.executive.nodes import Attempt, LiveTree
-from depal.executive.schema import FLAG, NUMBER, FactType, Repository
+from depal.executive.schema import Repository
 from depal.executive.state import State
-from depal.executive.tree import ground
 
 TIMED_OUT = "its time is over"
 
@@ -57,8 +58,7 @@ class Report:
     allocate: tuple[Call, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
+class Step(NamedTuple):
     """What one input has led to.
 
     Attributes:
@@ -82,7 +82,7 @@ class Engine:
         """
         self.repository = repository
         self.state = State(repository, weights)
-        self._types = _types_by_attribute(repository)
+        self._declared = Declared(repository)
         self._uncontested = (0, -1, -1)
 
     # Inputs
@@ -107,7 +107,7 @@ class Engine:
             TaskError: a fact that is not declared, or a value of another kind.
         """
         changes = tuple(facts)
-        problems = [problem for change in changes if (problem := self._misfit(change))]
+        problems = [problem for change in changes if (problem := self._declared.misfit(change))]
         if problems:
             raise TaskError(source, problems)
         return self._commit([ev.Changed(at, changes, source)], at)
@@ -131,7 +131,7 @@ class Engine:
 
     def prioritise(self, tree: int, priority: float, at: float) -> Step:
         """Gives a tree another priority."""
-        return self._commit([ev.Prioritised(at, self._tree(tree).number, priority)], at)
+        return self._commit([ev.Prioritised(at, self._tree(tree).number, float(priority))], at)
 
     def withdraw(self, tree: int, reason: str, at: float) -> Step:
         """Ends a tree that is no longer wanted, once nothing of it runs."""
@@ -143,7 +143,7 @@ class Engine:
 
     def tick(self, at: float) -> Step:
         """Time has come; nothing happens where nothing was due."""
-        return self._commit([], at) if self._is_due(at) else Step((), ())
+        return self._commit([], at) if self.state.is_due(at) else Step((), ())
 
     def hold(self, source: str, at: float) -> Step:
         """Nothing starts any more; what runs goes on."""
@@ -189,14 +189,10 @@ class Engine:
 
     def _commit(self, events: Sequence[ev.Event], at: float) -> Step:
         # What was due before comes first, whether or not somebody ticked.
-        happened = [ev.Ticked(at), *events] if self._is_due(at) else events
+        happened = [ev.Ticked(at), *events] if self.state.is_due(at) else events
         self._apply(happened)
         followed, commands = self.consequences(at)
         return Step((*happened, *followed), tuple(commands))
-
-    def _is_due(self, at: float) -> bool:
-        due = self.state.next_timer()
-        return due is not None and due <= at
 
     def _apply(self, events: Iterable[ev.Event]) -> None:
         for event in events:
@@ -224,8 +220,8 @@ class Engine:
             state.touched.clear()
             for number in touched:
                 tree = state.trees.get(number)
-                if tree is not None and _has_ended(tree):
-                    self._then(ev.Archived(at, number, tree.root.post()), events)
+                if tree is not None and tree.ended:
+                    self._then(ev.Archived(at, number, self.state.accomplished(tree.root)), events)
 
     def _contest(self, at: float, events: list[ev.Event], commands: list[Command]) -> bool:
         """Starts one primitive, or has some give way; whether one was started."""
@@ -264,10 +260,12 @@ class Engine:
 
     def _allocations(self, calls: Sequence[Call], at: float, first: int) -> list[ev.Event]:
         for call in calls:
-            ground(self.repository, call.schema, call.args)  # refuses before anything changes
+            self.state.plan(call.schema, call.args)  # refuses before anything changes
         digest = self.repository.digest
         return [
-            ev.Allocated(at, first + offset, call.schema, tuple(call.args), call.priority, digest)
+            ev.Allocated(
+                at, first + offset, call.schema, tuple(call.args), float(call.priority), digest
+            )
             for offset, call in enumerate(calls)
         ]
 
@@ -282,7 +280,7 @@ class Engine:
         if foreign:
             reason = f"changed facts that it does not declare: {', '.join(foreign)}"
             return (), Outcome.UNDECLARED, reason
-        wrong = [problem for change in report.facts if (problem := self._misfit(change))]
+        wrong = [problem for change in report.facts if (problem := self._declared.misfit(change))]
         if wrong:
             return (), Outcome.UNDECLARED, "; ".join(map(str, wrong))
         outcome = report.outcome
@@ -290,53 +288,9 @@ class Engine:
             outcome = Outcome.TIMEOUT
         return tuple(report.facts), outcome, report.reason
 
-    def _misfit(self, change: Change) -> Problem | None:
-        """What is wrong with a change, if anything."""
-        key, value = change
-        subject, _, attribute = key.rpartition(".")
-        by_subject = self._types.get(attribute)
-        if by_subject is None:
-            exists = did_you_mean(attribute, self._types)
-            return Problem(key, f"no fact is called {attribute!r}", exists=exists)
-        kind = by_subject.get(subject, by_subject.get(None))
-        if kind is None:
-            exists = did_you_mean(subject, (name for name in by_subject if name))
-            return Problem(key, f"{subject!r} has no fact {attribute!r}", exists=exists)
-        if not fits(value, kind):
-            return Problem(key, f"{value!r} is no value for it", " or ".join(kind.kinds))
-        return None
-
     def _tree(self, number: int) -> LiveTree:
         tree = self.state.trees.get(number)
         if tree is None:
             exists = did_you_mean(str(number), map(str, self.state.trees))
             raise TaskError("", [Problem("trees", f"no tree {number}", exists=exists)])
         return tree
-
-
-def _has_ended(tree: LiveTree) -> bool:
-    """Whether a tree is to be archived: its root is accomplished or withdrawn, nothing runs."""
-    return not tree.running and (tree.withdrawn is not None or tree.root.post())
-
-
-def fits(value: Value, kind: FactType) -> bool:
-    """Whether a value is of a declared type."""
-    if value is None:
-        return kind.optional or FLAG in kind.kinds
-    if isinstance(value, bool):
-        return FLAG in kind.kinds
-    if isinstance(value, int | float):
-        return NUMBER in kind.kinds
-    return any(name not in {FLAG, NUMBER} for name in kind.kinds)
-
-
-def _types_by_attribute(repository: Repository) -> dict[str, dict[str | None, FactType]]:
-    """Types by attribute, then by the thing that has it; None for any thing of a sort.
-
-    A subject with a capital is a sort, and the engine does not know which things are of it.
-    """
-    types: dict[str, dict[str | None, FactType]] = {}
-    for declaration in repository.facts.values():
-        subject = None if declaration.subject[:1].isupper() else declaration.subject
-        types.setdefault(declaration.attribute, {})[subject] = declaration.type
-    return types

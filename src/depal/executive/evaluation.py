@@ -1,23 +1,25 @@
 """Continuous evaluation: facts, trees, and which nodes may run.
 
-A node is awake, its conditions watched, while its parent's gate is open. Below a closed gate
-nothing can run, so nothing is watched there; what is shown there is swept when somebody looks.
-So a change of facts costs what it touches. What follows for primitives is for the subclass.
+A tree knows which of its atoms are true; its task's plan knows what that means. A change of facts
+tests the atoms that wait for it, looks up what the new set means, and passes on which gates have
+moved. Atoms that a tree shares with others, such as those about the arm, are watched only while a
+node mentions them whose parent may run. So a change costs what it touches.
+
+What follows for primitives is for the subclass.
 """
 
 from collections.abc import Iterable
 from typing import cast
 
-from depal.executive.compiled import Compiler, Grounded, Span, Watch, always
-from depal.executive.conditions import ALWAYS, Binding, Key, Lasting, Value, lasting_of
+from depal.executive.atoms import members
+from depal.executive.conditions import Key, Value
 from depal.executive.events import Change
 from depal.executive.nodes import LiveNode, LiveTree
-from depal.executive.schema import Action, Repository, Task
-from depal.executive.spans import Spans
+from depal.executive.plan import SHUT, Gates, Plan
+from depal.executive.schema import Action, Repository
+from depal.executive.spans import Span, Spans
 from depal.executive.tree import Standing, Tree, ground, sweep
-from depal.executive.watching import POST, PRE, Watchers
-
-NEVER_FALSE: Grounded = (always, ())
+from depal.executive.watching import Move, Watchers
 
 
 class Evaluation:
@@ -30,7 +32,7 @@ class Evaluation:
         trees: what is allocated, by number.
         spans: the time conditions of the trees.
         now: the time of the last event [s].
-        touched: trees of which something has changed since somebody took them.
+        touched: trees that may have ended since somebody took them.
     """
 
     def __init__(self, repository: Repository) -> None:
@@ -39,13 +41,11 @@ class Evaluation:
         self.facts: dict[Key, Value] = {}
         self.changed_at: dict[Key, float] = {}
         self.trees: dict[int, LiveTree] = {}
-        self.spans = Spans()
+        self.spans = Spans(self.facts)
         self.now = 0.0
         self.touched: dict[int, None] = {}
-        self._watchers = Watchers()
-        self._compiler = Compiler(self.facts, self.spans.of)
-        self.spans.compiler = self._compiler
-        self._timed, self._timed_edges = _time_conditions(repository)
+        self._watchers: Watchers[LiveTree] = Watchers()
+        self._plans: dict[str, Plan] = {}
 
     # What the subclass does about it
 
@@ -57,12 +57,12 @@ class Evaluation:
         """A concrete node's gate has closed."""
         raise NotImplementedError
 
-    def _task_opened(self, node: LiveNode) -> None:
-        """An abstract node's gate has opened."""
+    def _keeper_opened(self, node: LiveNode) -> None:
+        """The gate of a task that keeps resources has opened."""
         raise NotImplementedError
 
-    def _task_closed(self, node: LiveNode) -> None:
-        """An abstract node's gate has closed."""
+    def _keeper_closed(self, node: LiveNode) -> None:
+        """The gate of a task that keeps resources has closed."""
         raise NotImplementedError
 
     def _fact_emptied(self, key: Key) -> None:
@@ -78,189 +78,173 @@ class Evaluation:
     def standings(self, tree: LiveTree) -> list[Standing]:
         """The states of a tree's nodes, swept from scratch."""
         plain = Tree(tuple(node.node for node in tree.nodes))
-        return sweep(plain, self.facts, self.has_lasted)
+        return sweep(plain, self.facts, self.spans.has_lasted)
 
-    def has_lasted(self, condition: Lasting, binding: Binding) -> bool:
-        """Whether a time condition's part has held for long enough."""
-        span = self.spans.find(condition, binding)
-        return span is not None and span.value
+    def accomplished(self, node: LiveNode) -> bool:
+        """Whether a node's postcondition holds, whoever watches it."""
+        part = node.tree.plan.parts[node.place[1]]
+        return part.post(self._tested(node.tree, part.decisive))
+
+    def plan(self, schema: str, args: tuple[str, ...]) -> Plan:
+        """The plan of a task.
+
+        Raises:
+            TaskError: an unknown task or a wrong number of arguments.
+        """
+        plan = self._plans.get(schema)
+        if plan is None or plan.arity != len(args):
+            ground(self.repository, schema, args)  # says what is wrong, if anything is
+            plan = self._plans[schema] = Plan(self.repository, schema, self.facts)
+        return plan
 
     # Trees
 
     def _plant(
         self, number: int, schema: str, args: tuple[str, ...], priority: float, digest: str
     ) -> None:
-        """Grounds a task and wakes its root."""
-        plain = ground(self.repository, schema, args)
-        tree = LiveTree(number, [], priority, digest)
-        for node in plain.nodes:
-            parent = tree.nodes[node.parent] if node.parent >= 0 else None
+        """Grounds a task and watches over it."""
+        plan = self.plan(schema, args)
+        plain = plan.stamp.nodes(args)
+        spans = [
+            self.spans.use(lasting, plain[at].edge_binding if on_edge else plain[at].binding)
+            for lasting, at, on_edge in plan.timed
+        ]
+        for span in spans:
+            self._measure(span)
+        nodes: list[LiveNode] = []
+        tree = LiveTree(number, plan, plan.subject(args, spans), nodes, priority, digest)
+        for node in plain:
+            parent = nodes[node.parent] if node.parent >= 0 else None
             action = cast("Action", node.schema)
-            live = LiveNode(node, action, tree, (number, node.index), parent)
-            tree.nodes.append(live)
-            if parent is not None:
-                parent.children.append(live)
-            if node.schema.name in self._timed:
-                for lasting in self._timed[node.schema.name]:
-                    self._measure(self.spans.use(tree, lasting, node.binding))
-            if id(node.edge) in self._timed_edges:
-                for lasting in self._timed_edges[id(node.edge)]:
-                    self._measure(self.spans.use(tree, lasting, node.edge_binding))
+            nodes.append(LiveNode(node, action, tree, (number, node.index), parent))
         self.trees[number] = tree
         self.touched[number] = None
-        self._wake(tree.root)
+        self._watch(tree, plan.own)
+        self._turn(tree, self._tested(tree, plan.own))
 
     def _uproot(self, tree: LiveTree) -> None:
         """Takes a tree away."""
-        self._sleep(tree.root)
-        self.touched[tree.number] = None
-        self.spans.release(tree)
+        self._shut(tree)
+        self.spans.release(tree.subject.spans)
         del self.trees[tree.number]
+        tree.nodes.clear()  # they point back to it, and would be garbage for a collector only
+
+    def _shut(self, tree: LiveTree) -> None:
+        """Nothing of a tree may run any more."""
+        self._unwatch(tree, tree.watched)
+        self._move(tree, SHUT)
 
     # Gates
 
-    def _wake(self, node: LiveNode) -> None:
-        if node.entries is None:
-            self._compile(node)
-        node.awake = True
-        self._watchers.watch(node)
-        node.holds_pre, node.holds_post = node.pre(), node.post()
-        self._regate(node)
+    def _turn(self, tree: LiveTree, true: int) -> None:
+        """Other atoms of a tree are true: watches what matters now, and moves the gates."""
+        plan = tree.plan
+        gates = plan.gates(true)
+        fulfilled = gates.accomplished & tree.gates.awake & ~tree.gates.accomplished
+        for index in members(fulfilled & plan.concrete):
+            tree.nodes[index].failures = 0
+        needed = plan.own | gates.needed
+        while tree.watched != needed:
+            # What is new may open more gates; only then is it known what is not needed any more.
+            fresh = needed & ~tree.watched
+            if fresh:
+                self._watch(tree, fresh)
+                true |= self._tested(tree, fresh)
+            else:
+                self._unwatch(tree, tree.watched & ~needed)
+                true &= needed
+            gates = plan.gates(true)
+            needed = plan.own | gates.needed
+        tree.true = true
+        self._move(tree, gates)
 
-    def _sleep(self, node: LiveNode) -> None:
-        if not node.awake:
-            return
-        node.awake = False
-        self._watchers.unwatch(node)
-        if node.gate:
-            node.gate = False
-            self._closed(node)
+    def _move(self, tree: LiveTree, gates: Gates) -> None:
+        """The gates of a tree become others, and whom it concerns is told."""
+        moves = tree.plan.moves(tree.gates, gates)
+        tree.gates = gates
+        for index, opened, concrete in moves:
+            node = tree.nodes[index]
+            if concrete:
+                (self._primitive_opened if opened else self._primitive_closed)(node)
+            else:
+                (self._keeper_opened if opened else self._keeper_closed)(node)
 
-    def _compile(self, node: LiveNode) -> None:
-        plain, ground = node.node, self._compiler.ground
-        node.post, post_watches = ground(plain.schema.until, plain.binding)
-        edge, edge_watches = NEVER_FALSE
-        if plain.edge is not ALWAYS:
-            edge, edge_watches = ground(plain.edge, plain.edge_binding)
-        node.pre = edge
-        if plain.schema.when is not ALWAYS:
-            own, own_watches = ground(plain.schema.when, plain.binding)
-            node.pre = own if edge is always else lambda: edge() and own()
-            edge_watches += own_watches
-        before, after = (*node.place, PRE), (*node.place, POST)
-        entries = [(watch, before) for watch in edge_watches]
-        entries += [(watch, after) for watch in post_watches]
-        node.entries = tuple(entries)
+    def _tested(self, tree: LiveTree, atoms: int) -> int:
+        """Those of the atoms that are true now."""
+        found, subject = 0, tree.subject
+        for number in members(atoms):
+            if tree.plan.atoms[number].test(subject):
+                found |= 1 << number
+        return found
 
-    def _regate(self, node: LiveNode) -> None:
-        gate = (
-            node.awake
-            and node.holds_pre
-            and not node.holds_post
-            and (node.parent is None or node.parent.gate)
-            and node.tree.withdrawn is None
-        )
-        if gate == node.gate:
-            return
-        node.gate = gate
-        if gate:
-            self._opened(node)
-        else:
-            self._closed(node)
+    def _watch(self, tree: LiveTree, atoms: int) -> None:
+        watches = tree.subject.watches
+        for number in members(atoms):
+            self._watchers.watch(watches[number], (tree.number, number), tree)
+        tree.watched |= atoms
 
-    def _opened(self, node: LiveNode) -> None:
-        if node.node.concrete:
-            self._primitive_opened(node)
-            return
-        self._task_opened(node)
-        for child in node.children:
-            self._wake(child)
-
-    def _closed(self, node: LiveNode) -> None:
-        if node.node.concrete:
-            self._primitive_closed(node)
-            return
-        self._task_closed(node)
-        for child in node.children:
-            self._sleep(child)
+    def _unwatch(self, tree: LiveTree, atoms: int) -> None:
+        watches = tree.subject.watches
+        for number in members(atoms):
+            self._watchers.unwatch(watches[number], (tree.number, number))
+        tree.watched &= ~atoms
 
     # Facts
 
     def _change(self, changes: Iterable[Change]) -> None:
         """Changes facts together, then evaluates what they can have changed."""
-        watches: dict[Watch, None] = {}
-        emptied: list[Key] = []
+        moves: list[Move] = []
+        facts = self.facts
         for key, value in changes:
-            before = self.facts.get(key)
+            before = facts.get(key)
             if before == value and type(before) is type(value):
                 continue
             if value is None:
-                self.facts.pop(key, None)
+                del facts[key]
             else:
-                self.facts[key] = value
+                facts[key] = value
             self.changed_at[key] = self.now
-            watches[key] = watches[key, before] = watches[key, value] = None
-            if value is None:
-                emptied.append(key)
-        if watches:
-            self._settle(watches)
-        for key in emptied:
-            self._fact_emptied(key)
+            moves.append(Move(key, before, value))
+        if moves:
+            self._settle(moves)
+            for key, _, after in moves:
+                if after is None:
+                    self._fact_emptied(key)
 
-    def _settle(self, watches: dict[Watch, None]) -> None:
-        todo: list[Watch] = list(watches) if self.spans else []
-        while todo:
-            # A time condition may stand inside another: inner ones first, then who waits.
-            spans = self.spans.concerned(todo)
-            todo = [span.key for span in spans if self._measure(span)]
-            watches.update(dict.fromkeys(todo))
-        stirred: dict[tuple[int, int], LiveNode] = {}
-        for (tree, index, side), node in self._watchers.nodes(watches):
-            if side == PRE:
-                value = node.pre()
-                changed, node.holds_pre = value != node.holds_pre, value
-            elif side == POST:
-                value = node.post()
-                changed, node.holds_post = value != node.holds_post, value
-                if changed and value:
-                    node.failures = 0
-            else:
-                continue
-            if changed:
-                stirred[tree, index] = node
-                self.touched[tree] = None
-        for node in stirred.values():
-            if node.awake:
-                self._regate(node)
+    def _settle(self, moves: list[Move]) -> None:
+        """Tests what changes of facts can have changed."""
+        if self.spans:
+            moves += self._measured(moves)
+        turned: dict[LiveTree, int] = {}
+        for (_, number), tree in self._watchers.told(moves):
+            true = turned.get(tree, tree.true) & ~(1 << number)
+            if tree.plan.atoms[number].test(tree.subject):
+                true |= 1 << number
+            turned[tree] = true
+        for tree, true in turned.items():
+            if true != tree.true:
+                self.touched[tree.number] = None
+                self._turn(tree, true)
+
+    def _measured(self, moves: list[Move]) -> list[Move]:
+        """The time conditions that have another value, and those that stand around them."""
+        found: list[Move] = []
+        while moves:
+            moves = [Move(s.key) for s in self.spans.concerned(moves) if self._measure(s)]
+            found += moves
+        return found
 
     def _measure(self, span: Span) -> bool:
         """Brings a time condition up to date; whether its value has changed."""
         before = span.value
-        if not span.part():
+        if not self.spans.holds(span):
             span.since, span.value = None, False
         else:
             if span.since is None:
                 span.since = self.now
-            span.value = self.now >= span.since + span.seconds
-            due = span.since + span.seconds
+            due = span.since + span.condition.seconds
+            span.value = self.now >= due
             if not span.value and span.due != due:
                 span.due = due
                 self._call_at(due, span)
         return span.value != before
-
-
-def _time_conditions(
-    repository: Repository,
-) -> tuple[dict[str, tuple[Lasting, ...]], dict[int, tuple[Lasting, ...]]]:
-    """The schemata, by name, and the edges, by identity, that mention time; most do not."""
-    own: dict[str, tuple[Lasting, ...]] = {}
-    edges: dict[int, tuple[Lasting, ...]] = {}
-    for name, schema in repository.schemata.items():
-        found = (*lasting_of(schema.when), *lasting_of(schema.until))
-        if found:
-            own[name] = found
-        for step in schema.steps if isinstance(schema, Task) else ():
-            timed = tuple(lasting_of(step.when))
-            if timed:
-                edges[id(step.when)] = timed
-    return own, edges

@@ -5,9 +5,12 @@ applies them: the running engine or a restart that folds the journal.
 """
 
 import json
-from dataclasses import dataclass, fields
+from collections.abc import Iterable, Iterator
 from enum import Enum
-from typing import Any, Final
+from itertools import islice
+from typing import Any, Final, Protocol, get_args
+
+import msgspec
 
 from depal.errors import JournalError
 from depal.executive.conditions import Key, Value
@@ -28,11 +31,15 @@ class Outcome(Enum):
     UNKNOWN = "unknown"
 
 
-@dataclass(frozen=True, slots=True)
-class Allocated:
-    """A task has been grounded and added to the trees."""
+class Happening(msgspec.Struct, frozen=True, tag=True, forbid_unknown_fields=True):
+    """What all events have: when they happened [s]."""
 
     at: float
+
+
+class Allocated(Happening, frozen=True):
+    """A task has been grounded and added to the trees."""
+
     tree: int
     schema: str
     args: tuple[str, ...]
@@ -40,102 +47,78 @@ class Allocated:
     digest: str
 
 
-@dataclass(frozen=True, slots=True)
-class Changed:
+class Changed(Happening, frozen=True):
     """Facts have changed together, by the world or by a person."""
 
-    at: float
     facts: tuple[Change, ...]
     source: str
 
 
-@dataclass(frozen=True, slots=True)
-class Started:
+class Started(Happening, frozen=True):
     """A primitive is about to run; written before it moves anything."""
 
-    at: float
     attempt: int
     tree: int
     node: int
 
 
-@dataclass(frozen=True, slots=True)
-class Ended:
+class Ended(Happening, frozen=True):
     """An attempt has ended, with the facts that it changed, in one."""
 
-    at: float
     attempt: int
     outcome: Outcome
     facts: tuple[Change, ...]
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class CancelAsked:
+class CancelAsked(Happening, frozen=True):
     """A running attempt is to stop, as soon as its policy lets it."""
 
-    at: float
     attempt: int
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Prioritised:
+class Prioritised(Happening, frozen=True):
     """A tree has another priority."""
 
-    at: float
     tree: int
     priority: float
 
 
-@dataclass(frozen=True, slots=True)
-class Withdrawn:
+class Withdrawn(Happening, frozen=True):
     """A tree is no longer wanted; it ends when nothing of it runs."""
 
-    at: float
     tree: int
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Archived:
+class Archived(Happening, frozen=True):
     """A tree has ended."""
 
-    at: float
     tree: int
     accomplished: bool
 
 
-@dataclass(frozen=True, slots=True)
-class Retried:
+class Retried(Happening, frozen=True):
     """A person lets a primitive be tried again after it had used up its retries."""
 
-    at: float
     tree: int
     node: int
 
 
-@dataclass(frozen=True, slots=True)
-class Ticked:
+class Ticked(Happening, frozen=True):
     """Time has come for a time-out, a retry or a time condition."""
 
-    at: float
 
-
-@dataclass(frozen=True, slots=True)
-class ModeChanged:
+class ModeChanged(Happening, frozen=True):
     """The executive is held (nothing starts) or started."""
 
-    at: float
     held: bool
     source: str
 
 
-@dataclass(frozen=True, slots=True)
-class Restarted:
+class Restarted(Happening, frozen=True):
     """The controller is back; every attempt that had not ended is in doubt."""
-
-    at: float
 
 
 Event = (
@@ -153,36 +136,38 @@ Event = (
     | Restarted
 )
 
-_KINDS: Final[dict[str, type[Event]]] = {
-    kind.__name__: kind
-    for kind in (
-        Allocated,
-        Changed,
-        Started,
-        Ended,
-        CancelAsked,
-        Prioritised,
-        Withdrawn,
-        Archived,
-        Retried,
-        Ticked,
-        ModeChanged,
-        Restarted,
-    )
-}
-
-
+_KINDS: Final[dict[str, type[Event]]] = {kind.__name__: kind for kind in get_args(Event)}
 _OUTCOMES: Final = {outcome.value: outcome for outcome in Outcome}
 _read: Final = json.JSONDecoder().decode
+_read_together: Final = msgspec.json.Decoder(list[Event]).decode
+
+TOGETHER = 1000
+"""So many records are read together."""
+
+
+class Kept(Protocol):
+    """What a journal keeps of an event."""
+
+    @property
+    def at(self) -> float:
+        """When it happened [s]."""
+
+    @property
+    def kind(self) -> str:
+        """Its kind."""
+
+    @property
+    def body(self) -> str:
+        """All else, as text."""
 
 
 def encode(event: Event) -> str:
     """The canonical text of an event, without its kind and its time."""
     body: dict[str, Any] = {}
-    for part in fields(event):
-        value = getattr(event, part.name)
-        if part.name != "at":
-            body[part.name] = value.value if isinstance(value, Outcome) else value
+    for name in event.__struct_fields__:
+        value = getattr(event, name)
+        if name != "at":
+            body[name] = value.value if isinstance(value, Outcome) else value
     return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
 
 
@@ -204,3 +189,26 @@ def decode(at: float, kind: str, body: str) -> Event:
     except (ValueError, KeyError, TypeError) as error:
         message = f"the journal holds no event of this version: {kind} {body[:80]}"
         raise JournalError(message) from error
+
+
+def decoded(records: Iterable[Kept]) -> Iterator[Event]:
+    """The events that records hold, as `decode` gives them one by one, in a fifth of the time.
+
+    Raises:
+        JournalError: one of them is no event of this version; all before it come first.
+    """
+    records = iter(records)
+    while together := list(islice(records, TOGETHER)):
+        try:
+            events = _read_together(f"[{','.join(map(_line, together))}]")
+        except ValueError:  # one of them is strange: one by one it shows which, and how
+            for record in together:
+                yield decode(record.at, record.kind, record.body)
+        else:
+            yield from events
+
+
+def _line(record: Kept) -> str:
+    """A record as one text; where two texts give a time or a kind, the record's own counts."""
+    comma = "," if len(record.body) > len("{}") else ""
+    return f'{record.body[:-1]}{comma}"at":{record.at!r},"type":"{record.kind}"}}'

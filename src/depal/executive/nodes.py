@@ -1,26 +1,16 @@
-"""Allocated trees as the engine keeps them: what is awake, what may run, what has failed."""
+"""Allocated trees as the engine keeps them: what is true, what may run, what has failed."""
 
 from dataclasses import dataclass, field
 
-from depal.executive.compiled import Test, Watch, always
-from depal.executive.conditions import Lasting
+from depal.executive.atoms import Subject
+from depal.executive.plan import SHUT, Gates, Plan
 from depal.executive.schema import Action
 from depal.executive.tree import Node
-
-SpanName = tuple[Lasting, frozenset[tuple[str, str]]]
-"""A time condition and the things that it is about."""
-
-
-Token = tuple[int, int, int]
-"""Tree, node and side of a watched condition."""
 
 
 @dataclass(slots=True, eq=False)
 class LiveNode:
     """A node and its moving parts.
-
-    A node is awake while its parent's gate is open. Only then are its conditions watched; below
-    a closed gate nothing can run, and what is shown there is swept when somebody looks.
 
     Attributes:
         node: what it grounds.
@@ -28,19 +18,12 @@ class LiveNode:
         tree: whose it is.
         place: its tree's number and its index in it: a total order of all nodes.
         parent: the node above, None for the root.
-        children: the nodes below.
-        pre: the preconditions of its edge and of its schema.
-        post: its postcondition.
-        entries: what `pre` and `post` wait for; None until it first wakes.
-        awake: whether it is watched.
-        holds_pre: the value of `pre`, while awake.
-        holds_post: the value of `post`, while awake.
-        gate: whether it may run.
         attempt: the attempt that runs, or None.
         failures: how often its primitive has failed in a row.
         retry_at: not before then is it tried again [s].
         faulted: whether it has used up its retries.
         waiting_since: since when it could run and does not [s].
+        rank: what orders it among those that wait, the greatest first.
         ticket: which entry of a queue stands for it; others are stale.
     """
 
@@ -49,20 +32,18 @@ class LiveNode:
     tree: "LiveTree"
     place: tuple[int, int]
     parent: "LiveNode | None"
-    children: list["LiveNode"] = field(default_factory=list)
-    pre: Test = always
-    post: Test = always
-    entries: tuple[tuple[Watch, Token], ...] | None = None
-    awake: bool = False
-    holds_pre: bool = False
-    holds_post: bool = False
-    gate: bool = False
     attempt: int | None = None
     failures: int = 0
     retry_at: float = 0.0
     faulted: bool = False
     waiting_since: float = 0.0
+    rank: float = 0.0
     ticket: int = -1
+
+    @property
+    def gate(self) -> bool:
+        """Whether it may run."""
+        return self.tree.gates.open >> self.place[1] & 1 == 1
 
     def is_within(self, ancestor: "LiveNode") -> bool:
         """Whether it is that node or stands below it."""
@@ -80,26 +61,41 @@ class LiveTree:
 
     Attributes:
         number: in the order of allocation.
-        nodes: the root first.
+        plan: of its task.
+        subject: what it is about.
+        nodes: the root first; none once it has ended.
         priority: of the request that it serves; the root's own contribution to emphasis.
         digest: of the task file that it came from.
         withdrawn: why it is no longer wanted, None while it is.
         running: its attempts that run.
-        spans: the time conditions that it mentions.
+        true: its atoms that are true, of those that are watched.
+        watched: its atoms that are told of changes; none when it is shut.
+        gates: what that means for its nodes.
     """
 
     number: int
+    plan: Plan
+    subject: Subject
     nodes: list[LiveNode]
     priority: float
     digest: str
     withdrawn: str | None = None
     running: dict[int, LiveNode] = field(default_factory=dict)
-    spans: list[SpanName] = field(default_factory=list)
+    true: int = 0
+    watched: int = 0
+    gates: Gates = SHUT
 
     @property
     def root(self) -> LiveNode:
         """The allocated task itself."""
         return self.nodes[0]
+
+    @property
+    def ended(self) -> bool:
+        """Whether it is to be archived: accomplished or withdrawn, and nothing of it runs."""
+        if self.running:
+            return False
+        return self.withdrawn is not None or self.gates.accomplished & 1 == 1
 
 
 @dataclass(slots=True, eq=False)

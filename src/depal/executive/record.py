@@ -11,7 +11,7 @@ from pathlib import Path
 from depal.errors import JournalError
 from depal.executive import events as ev
 from depal.executive.engine import Engine
-from depal.executive.events import Event, decode, encode
+from depal.executive.events import Event, decoded, encode
 from depal.executive.journal import SqliteJournal
 from depal.executive.language import format_repository, read_tasks
 from depal.executive.schema import Repository
@@ -82,7 +82,7 @@ class Recording:
                 raise JournalError(message)
         repository = read_tasks(folder / TASKS)
         with SqliteJournal(folder / JOURNAL, readonly=True) as journal:
-            events = tuple(decode(r.at, r.kind, r.body) for r in journal.read())
+            events = tuple(decoded(journal.read()))
         return cls(repository, events)
 
     def state_at(self, sequence: int) -> State:

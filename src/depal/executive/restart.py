@@ -7,7 +7,7 @@ from contextlib import contextmanager
 from depal.errors import JournalError
 from depal.executive.emphasis import EmphasisWeights
 from depal.executive.engine import DEFAULT_WEIGHTS, Engine
-from depal.executive.events import Allocated, Event, decode
+from depal.executive.events import Allocated, Event, decoded
 from depal.executive.journal import Journal
 from depal.executive.schema import Repository
 from depal.executive.snapshot import thaw
@@ -58,8 +58,8 @@ def resumed(
         if snapshot is not None:
             engine.state = thaw(repository, weights, snapshot.body)
         after = 0 if snapshot is None else snapshot.sequence
-        for record in journal.read(after):
-            _fold(engine, decode(record.at, record.kind, record.body))
+        for event in decoded(journal.read(after)):
+            _fold(engine, event)
     return engine
 
 

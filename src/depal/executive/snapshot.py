@@ -3,9 +3,11 @@
 import json
 from typing import Any
 
+import msgspec
+
 from depal.errors import JournalError
 from depal.executive import events as ev
-from depal.executive.emphasis import EmphasisWeights
+from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Repository
 from depal.executive.state import State
@@ -44,7 +46,7 @@ def freeze(state: State) -> str:
         "keepers": [[name, *node.place] for name, node in state.holdings.kept()],
         "since": state.spans.since(),
     }
-    return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
+    return _written(body)
 
 
 def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
@@ -54,7 +56,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         JournalError: it was made with other task files, or by another version.
     """
     try:
-        body: dict[str, Any] = json.loads(text)
+        body = _read(text)
         if body["digest"] != repository.digest:
             message = (
                 f"the snapshot was made with other task files ({body['digest']}, now "
@@ -70,7 +72,7 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
             _plant(state, tree)
         for number, tree, node, started, deadline, cancel, in_doubt in body["attempts"]:
             at = state.trees[tree].nodes[node]
-            state.adopt(Attempt(number, at, started, deadline, cancel, in_doubt))
+            _adopt(state, Attempt(number, at, started, deadline, cancel, in_doubt))
         for name, tree, node in body["keepers"]:
             state.holdings.keep(name, state.trees[tree].nodes[node])
         state.held, state.next_tree = body["held"], body["next_tree"]
@@ -81,6 +83,21 @@ def thaw(repository: Repository, weights: EmphasisWeights, text: str) -> State:
         message = f"the snapshot is of another version: {type(error).__name__}: {error}"
         raise JournalError(message) from error
     return state
+
+
+def _written(body: dict[str, Any]) -> str:
+    try:
+        return msgspec.json.encode(body, order="deterministic").decode()
+    except UnicodeEncodeError:  # half of a surrogate pair in a text is allowed in JSON
+        return json.dumps(body, separators=(",", ":"), sort_keys=True, allow_nan=False)
+
+
+def _read(text: str) -> dict[str, Any]:
+    try:
+        body: dict[str, Any] = msgspec.json.decode(text)
+    except msgspec.DecodeError:
+        body = json.loads(text)  # the same
+    return body
 
 
 def _plant(state: State, tree: dict[str, Any]) -> None:
@@ -97,6 +114,31 @@ def _plant(state: State, tree: dict[str, Any]) -> None:
     planted = state.trees[tree["number"]]
     for index, failures, retry_at, faulted, since in tree["nodes"]:
         node: LiveNode = planted.nodes[index]
-        state.recall(node, failures, retry_at, since, faulted=faulted)
+        node.failures, node.retry_at = failures, retry_at
+        _recall(state, node, since, faulted=faulted)
     if tree["withdrawn"] is not None:
         state.apply(ev.Withdrawn(state.now, planted.number, tree["withdrawn"]))
+
+
+def _recall(state: State, node: LiveNode, since: float, *, faulted: bool) -> None:
+    """A node waits again as it did, or for its fault to be cleared."""
+    state.waiting.drop(node)
+    if faulted:
+        state.faults.add(node)
+    elif node.gate:
+        state.wait(node)
+    node.waiting_since = since
+    if state.waiting.waits(node):
+        state.waiting.put(node, rank(node, state.weights))
+
+
+def _adopt(state: State, attempt: Attempt) -> None:
+    """Gives a node back the attempt that ran."""
+    node = attempt.node
+    state.waiting.drop(node)
+    state.attempts[attempt.number] = attempt
+    node.attempt = attempt.number
+    node.tree.running[attempt.number] = node
+    state.holdings.use(attempt.number, node)
+    if attempt.deadline is not None:
+        state.set_deadline(attempt, attempt.deadline)

@@ -7,19 +7,18 @@ a restart that folds the journal agree, event by event.
 from collections.abc import Callable
 
 from depal.executive import events as ev
-from depal.executive.compiled import Span, Watch
 from depal.executive.conditions import Key, Value
 from depal.executive.emphasis import EmphasisWeights, rank
 from depal.executive.evaluation import Evaluation
 from depal.executive.events import Outcome
+from depal.executive.faults import ATTEMPTS, FAULT, Faults, own_key
 from depal.executive.holdings import Holdings
 from depal.executive.nodes import Attempt, LiveNode
 from depal.executive.schema import Cancel, Repository
+from depal.executive.spans import Span
 from depal.executive.timers import Timers
 from depal.executive.waiting import Waiting
-
-FAULT, ATTEMPTS = "fault", "attempts"
-"""Facts that the engine itself writes, where they are declared."""
+from depal.executive.watching import Move
 
 CANCEL_GRACE = 10.0
 """So long may an attempt take to stop before that is a fault [s]."""
@@ -33,6 +32,7 @@ class State(Evaluation):
         attempts: what runs, by number.
         waiting: what may run and does not.
         holdings: who uses what.
+        faults: what is not tried again until somebody clears its fault.
         held: whether nothing may start.
         next_tree: the number of the next tree.
         next_attempt: the number of the next attempt.
@@ -52,7 +52,7 @@ class State(Evaluation):
         self.next_attempt = 1
         self.orphans: dict[int, Attempt] = {}
         self.overdue: dict[int, Attempt] = {}
-        self._faulted: dict[Key, list[LiveNode]] = {}
+        self.faults = Faults()
         self._timers: Timers[Span | LiveNode | Attempt] = Timers(self._is_stale)
         self._fold = self._folders()
         self._own_facts = {
@@ -64,6 +64,10 @@ class State(Evaluation):
     def next_timer(self) -> float | None:
         """When the next `Ticked` is due [s]; None where nothing waits for time."""
         return self._timers.next()
+
+    def is_due(self, now: float) -> bool:
+        """Whether a `Ticked` is due."""
+        return self._timers.any_due(now)
 
     # Changing
 
@@ -96,33 +100,6 @@ class State(Evaluation):
         for attempt in self.attempts.values():
             self._doubt(attempt)
 
-    # Recalling a snapshot
-
-    def recall(
-        self, node: LiveNode, failures: int, retry_at: float, since: float, *, faulted: bool
-    ) -> None:
-        """Gives a node back what a snapshot kept of it."""
-        node.failures, node.retry_at, node.faulted = failures, retry_at, faulted
-        self.waiting.drop(node)
-        if faulted:
-            self._faulted.setdefault(self._own_key(node, FAULT), []).append(node)
-        elif node.gate:
-            self._wait(node)
-        node.waiting_since = since
-        if self.waiting.waits(node):
-            self.waiting.put(node, rank(node, self.weights))
-
-    def adopt(self, attempt: Attempt) -> None:
-        """Gives a node back the attempt that ran."""
-        node = attempt.node
-        self.waiting.drop(node)
-        self.attempts[attempt.number] = attempt
-        node.attempt = attempt.number
-        node.tree.running[attempt.number] = node
-        self.holdings.use(attempt.number, node)
-        if attempt.deadline is not None:
-            self._timers.set(attempt.deadline, attempt)
-
     # Trees
 
     def _allocate(self, event: ev.Allocated) -> None:
@@ -133,18 +110,16 @@ class State(Evaluation):
         tree = self.trees[event.tree]
         tree.withdrawn = event.reason
         self.touched[tree.number] = None
-        self._regate(tree.root)
+        self._shut(tree)
 
     def _archive(self, event: ev.Archived) -> None:
         tree = self.trees[event.tree]
+        self.faults.forget(tree)
         self._uproot(tree)
-        for nodes in self._faulted.values():
-            nodes[:] = [node for node in nodes if node.tree is not tree]
 
     def _prioritise(self, event: ev.Prioritised) -> None:
         tree = self.trees[event.tree]
         tree.priority = event.priority
-        self.touched[tree.number] = None
         for node in self.waiting.of_tree(tree.number):
             self.waiting.put(node, rank(node, self.weights))
 
@@ -153,7 +128,7 @@ class State(Evaluation):
     def _primitive_opened(self, node: LiveNode) -> None:
         if node.attempt is not None:
             self.orphans.pop(node.attempt, None)
-        self._wait(node)
+        self.wait(node)
 
     def _primitive_closed(self, node: LiveNode) -> None:
         self.waiting.drop(node)
@@ -162,20 +137,21 @@ class State(Evaluation):
             if attempt.cancel is None and node.action.cancel is not Cancel.NEVER:
                 self.orphans[attempt.number] = attempt
 
-    def _task_opened(self, node: LiveNode) -> None:
+    def _keeper_opened(self, node: LiveNode) -> None:
         self.holdings.keep_again(node)
 
-    def _task_closed(self, node: LiveNode) -> None:
+    def _keeper_closed(self, node: LiveNode) -> None:
         self.holdings.stop_keeping(node)
 
     def _fact_emptied(self, key: Key) -> None:
-        for node in self._faulted.pop(key, ()):
+        for node in self.faults.cleared(key):
             self._forgive(node)
 
     def _call_at(self, at: float, span: Span) -> None:
         self._timers.set(at, span)
 
-    def _wait(self, node: LiveNode) -> None:
+    def wait(self, node: LiveNode) -> None:
+        """A primitive may run, unless it runs already or must not be tried again yet."""
         if node.attempt is not None or node.faulted:
             return
         if node.retry_at > self.now:
@@ -191,21 +167,21 @@ class State(Evaluation):
         if isinstance(what, Span):
             if not what.users or what.since is None or what.value:
                 return True
-            return what.since + what.seconds != at
+            return what.elapsed_at() != at
         if isinstance(what, LiveNode):
             idle = what.gate and what.attempt is None and not what.faulted
             return not idle or what.retry_at != at or self.waiting.waits(what)
         return self.attempts.get(what.number) is not what or what.deadline != at
 
     def _tick(self, _: ev.Ticked) -> None:
-        changed: dict[Watch, None] = {}
+        changed: list[Move] = []
         for what in self._timers.due(self.now):
             if isinstance(what, LiveNode):
-                self._wait(what)
+                self.wait(what)
             elif isinstance(what, Attempt):
                 self._late(what)
             elif self._measure(what):
-                changed[what.key] = None
+                changed.append(Move(what.key))
         if changed:
             self._settle(changed)
 
@@ -213,9 +189,10 @@ class State(Evaluation):
         action = attempt.node.action
         attempt.in_doubt = not action.idempotent
         if action.timeout is not None:
-            self._set_deadline(attempt, self.now + action.timeout)
+            self.set_deadline(attempt, self.now + action.timeout)
 
-    def _set_deadline(self, attempt: Attempt, at: float) -> None:
+    def set_deadline(self, attempt: Attempt, at: float) -> None:
+        """An attempt is to end until a moment [s]."""
         attempt.deadline = at
         self._timers.set(at, attempt)
 
@@ -236,11 +213,10 @@ class State(Evaluation):
         self.next_attempt = event.attempt + 1
         node.attempt = event.attempt
         node.tree.running[event.attempt] = node
-        self.touched[event.tree] = None
         self.waiting.drop(node)
         self.holdings.take(event.attempt, node)
         if action.timeout is not None:
-            self._set_deadline(attempt, self.now + action.timeout)
+            self.set_deadline(attempt, self.now + action.timeout)
 
     def _ask_to_stop(self, event: ev.CancelAsked) -> None:
         attempt = self.attempts[event.attempt]
@@ -250,7 +226,7 @@ class State(Evaluation):
         if attempt.node.action.cancel is Cancel.NEVER:
             self._raise_fault(attempt.node)
         else:
-            self._set_deadline(attempt, self.now + CANCEL_GRACE)
+            self.set_deadline(attempt, self.now + CANCEL_GRACE)
 
     def _end(self, event: ev.Ended) -> None:
         attempt = self.attempts.pop(event.attempt)
@@ -262,7 +238,7 @@ class State(Evaluation):
         self.touched[node.tree.number] = None
         self.holdings.give_back(event.attempt, node)
         self._change(event.facts)
-        succeeded = node.post()
+        succeeded = self.accomplished(node)
         if event.outcome is Outcome.UNKNOWN:
             self._raise_fault(node)
         elif succeeded:
@@ -271,7 +247,7 @@ class State(Evaluation):
         elif event.outcome not in {Outcome.CANCELLED, Outcome.PROBED}:
             self._fail(node)
         if node.gate:
-            self._wait(node)
+            self.wait(node)
 
     def _fail(self, node: LiveNode) -> None:
         node.failures += 1
@@ -282,20 +258,18 @@ class State(Evaluation):
             node.retry_at = self.now + node.action.backoff * 2 ** (node.failures - 1)
 
     def _raise_fault(self, node: LiveNode) -> None:
-        node.faulted = True
+        self.faults.add(node)
         self.waiting.drop(node)
-        self._faulted.setdefault(self._own_key(node, FAULT), []).append(node)
         self._write(node, FAULT, node.action.name)
 
     def _forgive(self, node: LiveNode) -> None:
         node.faulted, node.failures, node.retry_at = False, 0, 0.0
         if node.gate:
-            self._wait(node)
-
-    def _own_key(self, node: LiveNode, attribute: str) -> Key:
-        return f"{node.node.args[0] if node.node.args else node.action.name}.{attribute}"
+            self.wait(node)
 
     def _write(self, node: LiveNode, attribute: str, value: Value) -> None:
-        key = self._own_key(node, attribute)
-        if attribute in self._own_facts and self.facts.get(key) != value:
+        if attribute not in self._own_facts:
+            return
+        key = own_key(node, attribute)
+        if self.facts.get(key) != value:
             self._change(((key, value),))

@@ -44,6 +44,13 @@ class Timers(Generic[T]):
             heapq.heappop(queue)
         return queue[0][0] if queue else None
 
+    def any_due(self, now: float) -> bool:
+        """Whether a moment has come."""
+        if not self._queue or self._queue[0][0] > now:
+            return False
+        soonest = self.next()
+        return soonest is not None and soonest <= now
+
     def due(self, now: float) -> Iterator[T]:
         """Takes out everything whose moment has come, soonest first."""
         while self._queue and self._queue[0][0] <= now:

@@ -1,6 +1,7 @@
 """The nodes that may run and do not, best first, by the resources that they claim."""
 
 import heapq
+from collections.abc import Sequence
 
 from depal.executive.nodes import LiveNode
 
@@ -30,7 +31,7 @@ class Waiting:
         """A node waits, with its rank; what it had before is stale."""
         self.version += 1
         self._tickets += 1
-        node.ticket = self._tickets
+        node.ticket, node.rank = self._tickets, rank
         tree, index = node.place
         self._by_tree.setdefault(tree, {})[index] = node
         claim = node.action.uses
@@ -74,6 +75,7 @@ class Waiting:
                 found.append((queue[0][0], queue[0][1], queue[0][3]))
         return found
 
-    def of_tree(self, tree: int) -> list[LiveNode]:
+    def of_tree(self, tree: int) -> Sequence[LiveNode]:
         """All of a tree that wait."""
-        return list(self._by_tree.get(tree, {}).values())
+        waiting = self._by_tree.get(tree)
+        return list(waiting.values()) if waiting else ()

@@ -105,7 +105,7 @@ def _blame(
     state: State, condition: Condition, binding: Binding, at: str, found: list[Culprit]
 ) -> None:
     """Adds what makes a condition false; nothing where it holds."""
-    if holds(condition, state.facts, binding, state.has_lasted):
+    if holds(condition, state.facts, binding, state.spans.has_lasted):
         return
     _wish(state, condition, binding, at, found, wanted=True)
 
@@ -120,7 +120,7 @@ def _wish(
     wanted: bool,
 ) -> None:
     """Adds the changes that give a condition the wanted value, where it has the other one."""
-    if holds(condition, state.facts, binding, state.has_lasted) == wanted:
+    if holds(condition, state.facts, binding, state.spans.has_lasted) == wanted:
         return
     match condition:
         case Always():
@@ -133,7 +133,7 @@ def _wish(
             for part in parts if every else parts[:1]:
                 _wish(state, part, binding, at, found, wanted=wanted)
         case Lasting(part, seconds):
-            if holds(part, state.facts, binding, state.has_lasted) and wanted:
+            if holds(part, state.facts, binding, state.spans.has_lasted) and wanted:
                 facts = _first_key(part, binding)
                 value = state.facts.get(facts)
                 since = state.changed_at.get(facts)

@@ -16,8 +16,11 @@ from depal.geometry import Pose, kernel, loop_kernel
 
 Array = npt.NDArray[np.float64]
 
-SINGULAR = 1e-9
+SINGULAR = 1e-12
 """Below this sine of axis 5 axes 4 and 6 turn about the same line."""
+
+STRETCHED = 1e-12
+"""A fully stretched arm is in reach, whatever rounding says of its cosine."""
 
 
 @loop_kernel
@@ -100,9 +103,9 @@ def solve_branches(flange: Array, dims: Array, near4: float, out: Array) -> int:
         h = wz - c1
         distance = math.hypot(r, h)
         cosine = (c2 * c2 + distance * distance - fore * fore) / (2 * c2 * distance)
-        if cosine < -1.0 or cosine > 1.0:
+        if not abs(cosine) <= 1.0 + STRETCHED:  # no number where the wrist is on axis 2 itself
             continue
-        spread = math.acos(cosine)
+        spread = math.acos(min(max(cosine, -1.0), 1.0))
         down = math.atan2(-h, r)
         for elbow in range(2):
             q2 = down - spread if elbow == 0 else down + spread
@@ -123,25 +126,32 @@ def _wrist(
     y0, y1 = s1, c1
     z0, z1, z2 = s * c1, -s * s1, c
     m00 = x0 * flange[0, 0] + x1 * flange[1, 0] + x2 * flange[2, 0]
-    m01 = x0 * flange[0, 1] + x1 * flange[1, 1] + x2 * flange[2, 1]
-    m02 = x0 * flange[0, 2] + x1 * flange[1, 2] + x2 * flange[2, 2]
     m10 = y0 * flange[0, 0] + y1 * flange[1, 0]
     m11 = y0 * flange[0, 1] + y1 * flange[1, 1]
     m20 = z0 * flange[0, 0] + z1 * flange[1, 0] + z2 * flange[2, 0]
     m21 = z0 * flange[0, 1] + z1 * flange[1, 1] + z2 * flange[2, 1]
+    m12 = y0 * flange[0, 2] + y1 * flange[1, 2]
+    m22 = z0 * flange[0, 2] + z1 * flange[1, 2] + z2 * flange[2, 2]
     bend = math.hypot(m10, m20)
     if bend < SINGULAR:
         q5 = 0.0 if m00 > 0 else math.pi
-        q4 = near4
-        turn = math.atan2(m21, m11)  # of axes 4 and 6 together
-        q6 = -turn - q4 if m00 > 0 else turn + q4
-        _put(out, found, q1, q2, q3, q4, q5, q6)
+        _put(out, found, q1, q2, q3, near4, q5, _roll(m11, m21, m12, m22, near4))
         return found + 1
-    q5 = math.atan2(bend, m00)
-    a, e = math.atan2(m10, -m20), math.atan2(m01, m02)
-    _put(out, found, q1, q2, q3, -a, q5, -e)
-    _put(out, found + 1, q1, q2, q3, math.pi - a, -q5, math.pi - e)
+    q5, q4 = math.atan2(bend, m00), -math.atan2(m10, -m20)
+    _put(out, found, q1, q2, q3, q4, q5, _roll(m11, m21, m12, m22, q4))
+    q4 += math.pi
+    _put(out, found + 1, q1, q2, q3, q4, -q5, _roll(m11, m21, m12, m22, q4))
     return found + 2
+
+
+@loop_kernel
+def _roll(m11: float, m21: float, m12: float, m22: float, q4: float) -> float:
+    """Axis 6 once axis 4 is chosen: so it makes up for what rounding did to axis 4.
+
+    Near the wrist's singularity axis 4 is known badly, and axis 6 alone would be as well.
+    """
+    c, s = math.cos(q4), math.sin(q4)
+    return math.atan2(c * m12 - s * m22, c * m11 - s * m21)
 
 
 @loop_kernel

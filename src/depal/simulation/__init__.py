@@ -1,1 +1,32 @@
 """The simulated cell behind the ports: physics, devices, people, and a referee who knows."""
+
+from depal.simulation.cases import Case, cases_of
+from depal.simulation.cell import SimulatedCell, build
+from depal.simulation.contacts import Collision
+from depal.simulation.losses import Cause, Loss
+from depal.simulation.people import SimulatedPerson, index_of, name_of
+from depal.simulation.referee import Referee, Summary, Truth
+from depal.simulation.stacking import stacked
+from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.world import Snapshot, World
+
+__all__ = [
+    "Case",
+    "Cause",
+    "Collision",
+    "Loss",
+    "Referee",
+    "SightSettings",
+    "SimulatedCell",
+    "SimulatedPerson",
+    "Snapshot",
+    "Summary",
+    "Truth",
+    "TruthSight",
+    "World",
+    "build",
+    "cases_of",
+    "index_of",
+    "name_of",
+    "stacked",
+]

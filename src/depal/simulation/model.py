@@ -130,9 +130,9 @@ def _set_options(spec: mujoco.MjSpec) -> None:
 
 
 def _stiffen(geom: mujoco.MjsGeom) -> None:
-    """Contacts that give 1.5 mm below the tallest stacks of 50 cases."""
+    """Contacts that give 0.3 mm below the tallest stacks; softer ones let boxes walk."""
     geom.solref[:2] = (0.01, 1.0)
-    geom.solimp[:3] = (0.95, 0.99, 0.001)
+    geom.solimp[:3] = (0.99, 0.999, 0.001)
 
 
 def _add_weld(spec: mujoco.MjSpec, number: int) -> None:

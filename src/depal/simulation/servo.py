@@ -10,7 +10,7 @@ from depal.ports.trajectory import Trajectory
 
 Floats = npt.NDArray[np.float64]
 
-SHORTEST_STOP = 0.016
+SHORTEST_STOP = 0.008
 """Coming to rest takes this long at least [s]."""
 
 

@@ -1,14 +1,13 @@
 """The gripper in the simulated world: valves, vacuum, and welds that give way."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
 import numpy.typing as npt
 
 from depal.domain import Cup, Tool
-from depal.domain.cup_group import Break, CupGroup
-from depal.simulation.model import STEP, WELDS, CellModel
+from depal.domain.cup_group import CupGroup
+from depal.simulation.holds import ROWS, TURN_SCALE, Broken, Hold, Valve
+from depal.simulation.model import WELDS, CellModel
 from depal.simulation.sealing import Solids, cups_in_cell, sealed
 
 Floats = npt.NDArray[np.float64]
@@ -22,11 +21,11 @@ LEAK = 0.6
 IMPEDANCE = 0.5
 """Of the welds: with it a weld is a spring whose stiffness is the bellows' own."""
 
+DAMPING = 0.3
+"""Of a box on its bellows, as a share of the critical one."""
+
 STIFFEST = 2e4
 """The greatest stiffness of a weld by mass that 2 ms steps follow [1/s^2]."""
-
-TURN_SCALE = 5.0
-"""Weight of a weld's angles against its lengths: cleats make the plate stiff against tilting."""
 
 BURST = 0.05
 """The vacuum of a torn module is gone after this [s]."""
@@ -34,70 +33,21 @@ BURST = 0.05
 TOUCH = 1e-9
 """A force that wakes a sleeping box and does nothing else [N]."""
 
-SMOOTHING = 0.5
-"""Share of a new reading in the load of a weld: a peak of one step breaks nothing."""
-
-
-@dataclass(slots=True)
-class Hold:
-    """Cups in one plane that hold one box; both modules' cups where these are coplanar.
-
-    Attributes:
-        weld: which of the model's welds.
-        box: which box.
-        cups: that hold it.
-        group: the same as a group.
-        rotation: `flange_from_face` of the plane.
-        middle: of the group, in the flange's frame [m].
-        force: on the cups by the box, in the face's frame, smoothed [N].
-        moment: the same about the middle of the group [N m].
-        lift: what the box weighs on the tool, along the vertical, smoothed [N].
-    """
-
-    weld: int
-    box: int
-    cups: tuple[Cup, ...]
-    group: CupGroup
-    rotation: Floats
-    middle: Floats
-    force: Floats
-    moment: Floats
-    lift: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Broken:
-    """A hold that gave way.
-
-    Attributes:
-        at: when [s].
-        box: which box.
-        why: which limit was passed.
-        share: of the limit that the load used.
-    """
-
-    at: float
-    box: int
-    why: Break
-    share: float
-
-
-@dataclass(slots=True)
-class _Valve:
-    """A module's vacuum: a straight line from one value to another."""
-
-    start: float = 0.0
-    since: float = 0.0
-    end: float = 0.0
-    time: float = 1.0
-
-    def level(self, now: float) -> float:
-        share = min(max((now - self.since) / self.time, 0.0), 1.0)
-        return self.start + (self.end - self.start) * share
-
 
 class SuctionState:
-    """Valves, vacuum and welds of the tool."""
+    """Valves, vacuum and welds of the tool.
+
+    Attributes:
+        model: the world's.
+        data: its state.
+        tool: the gripper.
+        folded: whether the lower module is up.
+        open: the cups with open valves, by module.
+        holds: what hangs on the tool, in the order of the welds.
+        let_go: whether a box was let go since the last step.
+        stuck: a fault: the valves do not vent.
+        supply: a fault where it is below 1: share of the full vacuum that the pump gives.
+    """
 
     def __init__(self, model: CellModel, data: mujoco.MjData) -> None:
         """All cups are vented, the lower module is down."""
@@ -107,8 +57,9 @@ class SuctionState:
         self.open: dict[str, tuple[int, ...]] = {}
         self.holds: list[Hold] = []
         self.let_go = False
-        self.sparse = bool(mujoco.mj_isSparse(model.mj))
-        self._valves = {module.name: _Valve() for module in self.tool.modules}
+        self.stuck = False
+        self.supply = 1.0
+        self._valves = {module.name: Valve() for module in self.tool.modules}
 
     def vacuum(self, now: float) -> dict[str, float]:
         """Below the pressure around, by module [Pa]."""
@@ -142,6 +93,8 @@ class SuctionState:
 
     def vent(self, now: float) -> None:
         """Shuts every valve and lets go of every box."""
+        if self.stuck:
+            return
         for hold in list(self.holds):
             self._let_go(hold)
         self.open = {}
@@ -156,8 +109,12 @@ class SuctionState:
     def after_step(self, now: float) -> list[Broken]:
         """Reads the load of every hold; those beyond their limit break."""
         broken = []
+        data, bodies = self.data, self.model.box_bodies
+        tool = data.xmat[self.model.tool_body].reshape(3, 3)
         for k, hold in enumerate(self.holds):
-            self._read(hold, 6 * k)
+            if data.ne >= ROWS * (k + 1):
+                forces = data.efc_force[ROWS * k : ROWS * (k + 1)]
+                hold.read(forces, tool, data.xmat[bodies[hold.box]].reshape(3, 3))
             share, why = hold.group.load_share(hold.force, hold.moment, self._pull(hold, now))
             if share > 1.0:
                 broken.append((hold, Broken(now, hold.box, why, share)))
@@ -178,7 +135,8 @@ class SuctionState:
     def _level(self, name: str, good: int) -> float:
         """The vacuum that a module will reach when so many of its open cups seal [Pa]."""
         bad = len(self.open.get(name, ())) - good
-        return self.tool.suction.vacuum * good / (good + LEAK * bad) if good else 0.0
+        full = self.tool.suction.vacuum * self.supply
+        return full * good / (good + LEAK * bad) if good else 0.0
 
     def _held_cups(self) -> set[Cup]:
         return {cup for hold in self.holds for cup in hold.cups}
@@ -196,7 +154,7 @@ class SuctionState:
 
     def _head_for(self, name: str, level: float, now: float, time: float) -> None:
         valve = self._valves[name]
-        self._valves[name] = _Valve(valve.level(now), now, level, time)
+        self._valves[name] = Valve(valve.level(now), now, level, time)
 
     def _boxes_under(self, cups: tuple[Cup, ...]) -> npt.NDArray[np.int64]:
         """The box that each cup seals on; -1 where there is none."""
@@ -238,7 +196,7 @@ class SuctionState:
         rotation = np.array(plane.flange_from_face.rotation, dtype=float)
         middle = np.array(plane.flange_from_face.apply((0.0, *group.middle)))
         self._switch_on(free[0], box, middle, suction.stiffness * len(cups))
-        hold = Hold(free[0], box, cups, group, rotation, middle, np.zeros(3), np.zeros(3))
+        hold = Hold(free[0], box, cups, group, rotation)
         self.holds = sorted([*self.holds, hold], key=lambda other: other.weld)
 
     def _switch_on(self, weld: int, box: int, middle: Floats, stiffness: float) -> None:
@@ -258,7 +216,7 @@ class SuctionState:
         mj.eq_data[weld, 10] = TURN_SCALE
         mass = float(mj.body_mass[body])
         k = min(stiffness * (1 - IMPEDANCE) / (IMPEDANCE * mass), STIFFEST)
-        mj.eq_solref[weld] = (-k, -2 * np.sqrt(k / IMPEDANCE))
+        mj.eq_solref[weld] = (-k, -2 * DAMPING * np.sqrt(k / IMPEDANCE))
         mj.eq_solimp[weld] = (IMPEDANCE, IMPEDANCE, 0.001, 0.5, 2)
         data.eq_active[weld] = 1
 
@@ -275,37 +233,3 @@ class SuctionState:
         # At rest beside an arm that never sleeps, the box would fall asleep in the air.
         self.data.xfrc_applied[self.model.box_bodies[hold.box], 2] = TOUCH
         self.let_go = True
-
-    def _read(self, hold: Hold, row: int) -> None:
-        """The load on the cups from the weld's constraint force in the last step."""
-        data, body = self.data, int(self.model.box_bodies[hold.box])
-        if data.ne < row + 6:
-            return
-        rows = self._jacobian(row, int(self.model.box_dofs[hold.box]))
-        wrench = rows.T @ data.efc_force[row : row + 6]
-        force = wrench[:3]
-        face = data.xmat[self.model.tool_body].reshape(3, 3) @ hold.rotation
-        turn = data.xmat[self.model.tool_body].reshape(3, 3)
-        point = data.xpos[self.model.tool_body] + turn @ hold.middle
-        moment = data.xmat[body].reshape(3, 3) @ wrench[3:]
-        moment = moment + np.cross(data.xpos[body] - point, force)
-        hold.force = hold.force + SMOOTHING * (-face.T @ force - hold.force)
-        hold.moment = hold.moment + SMOOTHING * (-face.T @ moment - hold.moment)
-        hold.lift += SMOOTHING * (float(force[2]) - hold.lift)
-
-    def _jacobian(self, row: int, dof: int) -> Floats:
-        """The part of six rows that belongs to the velocities of one box, (6, 6)."""
-        data = self.data
-        if not self.sparse:
-            dense: Floats = data.efc_J.reshape(-1, self.model.mj.nv)[row : row + 6, dof : dof + 6]
-            return dense
-        part = np.zeros((6, 6))
-        for k in range(6):
-            start, count = data.efc_J_rowadr[row + k], data.efc_J_rownnz[row + k]
-            columns = data.efc_J_colind[start : start + count] - dof
-            inside = (columns >= 0) & (columns < len(part))
-            part[k, columns[inside]] = data.efc_J[start : start + count][inside]
-        return part
-
-
-__all__ = ["HOLDS", "STEP", "Broken", "Hold", "SuctionState"]

@@ -11,9 +11,12 @@ from depal.geometry import Pose
 from depal.ports.trajectory import Trajectory
 from depal.simulation.cases import Case
 from depal.simulation.contacts import ContactWatch
+from depal.simulation.holds import Broken
+from depal.simulation.losses import LossWatch
 from depal.simulation.model import ARM_DAMPING, ARM_STIFFNESS, STEP, build_model
+from depal.simulation.parts import BODY, SOLID
 from depal.simulation.servo import Motion, motion_along, stopped
-from depal.simulation.suction import TOUCH, Broken, SuctionState
+from depal.simulation.suction import TOUCH, SuctionState
 
 Floats = npt.NDArray[np.float64]
 
@@ -27,7 +30,7 @@ SETTLING = 3000
 """The stack gets this many steps to come to rest at the most."""
 
 G = 9.81
-LOAD_FILTER = 0.01
+LOAD_FILTER = 0.005
 """Time constant of the load cell [s]."""
 
 _STIFFNESS, _DAMPING = np.array(ARM_STIFFNESS), np.array(ARM_DAMPING)
@@ -64,6 +67,7 @@ class World:
         data: its state.
         suction: valves, vacuum, welds.
         contacts: the watch for collisions.
+        losses: the watch for boxes that suction loses.
         broken: holds that gave way, in order.
         removed: boxes that people took out of the cell.
         bays: the name of the trolley that stands in each bay, None where none does.
@@ -92,6 +96,7 @@ class World:
         self.data = mujoco.MjData(self.model.mj)
         self.suction = SuctionState(self.model, self.data)
         self.contacts = ContactWatch(self.model, self.data)
+        self.losses = LossWatch()
         self.broken: list[Broken] = []
         self.removed: list[int] = []
         self.bays: dict[str, str | None] = {storage.id: storage.id for storage in layout.storages}
@@ -116,6 +121,7 @@ class World:
         while self._tick < last:
             if self._quiet >= QUIET:
                 self._tick = last
+                self.losses.look(self.now, self._height)
                 return
             self._step()
 
@@ -179,6 +185,15 @@ class World:
         self.data.qvel[dof : dof + 6] = 0.0
         self.refresh()
 
+    def show_storage(self, bay: str, *, trolley: str | None) -> None:
+        """A trolley of that name comes to stand in a bay, or none does."""
+        self.bays[bay] = trolley
+        geoms = self.model.storage_geoms[bay]
+        there = trolley is not None
+        self.model.mj.geom_contype[geoms] = SOLID["contype"] if there else 0
+        self.model.mj.geom_conaffinity[geoms] = SOLID["conaffinity"] if there else 0
+        self.refresh()
+
     def refresh(self) -> None:
         """Wakes every box and finds all poses again, after something was put elsewhere."""
         bodies = self.model.box_bodies
@@ -212,12 +227,18 @@ class World:
             self.data.xfrc_applied[self.model.box_bodies, 2] = 0.0
             self.suction.let_go = False
         if self.suction.holds:
-            self.broken += self.suction.after_step(self.now)
+            for broken in self.suction.after_step(self.now):
+                self.broken.append(broken)
+                self.losses.gave_way(broken, self._height(broken.box), self.contacts.touched)
+        self.losses.look(self.now, self._height)
         self._load += (self.suction.lift - self._load) * STEP / LOAD_FILTER
         moving = self._tick <= self._motion.last
         free = moving and not self._motion.may_touch(self._tick)
         self.contacts.after_step(self._tick, self.now, self.suction.held_boxes, free=free)
         self._quiet = 0 if moving or self._stirs() else self._quiet + 1
+
+    def _height(self, box: int) -> float:
+        return float(self.data.xpos[self.model.box_bodies[box], 2])
 
     def _stirs(self) -> bool:
         """Whether anything but the arm and what it holds is awake, or any of it moves."""
@@ -234,8 +255,8 @@ class World:
         geoms = ((self.model.unfolded_geoms, False), (self.model.folded_geoms, True))
         for group, up in geoms:
             there = up == self.suction.folded
-            self.model.mj.geom_contype[group] = 2 if there else 0
-            self.model.mj.geom_conaffinity[group] = 3 if there else 0
+            self.model.mj.geom_contype[group] = BODY["contype"] if there else 0
+            self.model.mj.geom_conaffinity[group] = BODY["conaffinity"] if there else 0
 
     def _settle(self) -> None:
         """Lets the stack come to rest before the time begins."""

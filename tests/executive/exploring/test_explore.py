@@ -8,7 +8,14 @@ from pathlib import Path
 import pytest
 
 from depal.errors import TaskError
-from depal.executive.exploring import Exploration, Hazard, HazardKind, explore
+from depal.executive.exploring import (
+    Exploration,
+    Hazard,
+    HazardKind,
+    TraceStep,
+    explore,
+    together,
+)
 from depal.executive.exploring.model import Model
 from depal.executive.exploring.moves import Moves, Rules, State
 from depal.executive.language import parse, read_tasks
@@ -83,15 +90,24 @@ def replayed(repository: Repository, task: str, hazard: Hazard, rules: Rules) ->
     """The states that a trace leads through; each step must be allowed in the state before."""
     model = Model(repository, ground(repository, task, ["b1"]))
     moves = Moves(model, rules)
-    states = [moves.first(model.unset)]
+
+    def agrees(state: State, step: TraceStep) -> bool:
+        named = model.named(state.facts)
+        return step.running == tuple(moves.labels[place] for place in state.running) and all(
+            named[key] == value for key, value in step.facts.items()
+        )
+
+    # Of a change that comes in parts a step names the first alone: several moves may be meant.
+    paths = [[moves.first(model.unset)]]
     for step in hazard.trace:
-        here = states[-1]
-        allowed = [*moves.after(here), *moves.by_the_world(here)]
-        states.append(next(move.after for move in allowed if move.what == step.what))
-        assert step.running == tuple(moves.labels[place] for place in states[-1].running)
-        named = model.named(states[-1].facts)
-        assert all(named[key] == value for key, value in step.facts.items())
-    return states
+        paths = [
+            [*path, move.after]
+            for path in paths
+            for move in (*moves.after(path[-1]), *moves.by_the_world(path[-1]))
+            if move.what == step.what and agrees(move.after, step)
+        ]
+        assert paths
+    return paths[0]
 
 
 def distance(repository: Repository, task: str, goal: State, rules: Rules) -> int:
@@ -167,10 +183,11 @@ def test_split_changes_send_the_robot_back_for_the_box_that_it_has_put_down() ->
     repository = read_tasks(STORE)
     rules = Rules(atomic=False)
     found = explore(repository, "store", ["b1"], atomic=False)
-    hazard = next(one for one in found.hazards if one.what.startswith("kr60_reach(b1)"))
+    hazard = next(one for one in found.hazards if one.what.startswith("kr60_grasp(b1)"))
     assert hazard.kind is HazardKind.HALF_CHANGE
-    assert hazard.trace[-1].what == "kr60_reach(b1) starts"
-    assert "b1.taken := false" in hazard.trace[-2].what
+    assert hazard.what == "kr60_grasp(b1) starts before b1.stored has arrived"
+    assert hazard.trace[-1].what == "kr60_grasp(b1) starts"
+    assert any("kr60_release(b1) ends: b1.taken := false" in one.what for one in hazard.trace)
     states = replayed(repository, "store", hazard, rules)
     assert distance(repository, "store", states[-1], rules) == len(hazard.trace)
 
@@ -287,3 +304,46 @@ def test_the_store_is_explored_within_its_time() -> None:
     start = time.perf_counter()
     assert explore(repository, "store", ["b1"]).complete
     assert time.perf_counter() - start < 3.0
+
+
+def test_two_stores_at_once_share_the_arm() -> None:
+    """No dead end, no livelock, no fact that two may set at once; either may be the first."""
+    repository, labels = together(read_tasks(STORE), [("store", ["b1"]), ("store", ["b2"])])
+    found = explore(repository, "together", labels)
+    assert found.task == "together(store(b1), store(b2))"
+    assert found.complete
+    assert not found.hazards
+    assert not found.idle
+    assert found.states > 20 * explore(read_tasks(STORE), "store", ["b1"]).states
+
+
+def test_two_that_keep_what_the_other_needs_block_each_other() -> None:
+    """Each alone is without fault."""
+    text = """
+task left(Box) until Box.a keeps arm
+  - first(Box)
+  - second(Box)  when Box.b
+task right(Box) until Box.done keeps hand
+  - third(Box)
+  - fourth(Box)  when Box.floor
+action first(Box) until Box.b uses arm sets Box.b
+action second(Box) until Box.a uses arm, hand sets Box.a
+action third(Box) until Box.floor uses hand sets Box.floor
+action fourth(Box) until Box.done uses arm, hand sets Box.done
+"""
+    repository = parse(FACTS + text, "test.task")
+    for name in ("left", "right"):
+        assert not explore(repository, name, ["b1"]).hazards
+    both, labels = together(repository, [("left", ["b1"]), ("right", ["b1"])])
+    (hazard,) = explore(both, "together", labels).hazards
+    assert hazard.kind is HazardKind.DEAD_END
+    assert [one.what for one in hazard.trace if "starts" in one.what] == [
+        "first(b1) starts",
+        "third(b1) starts",
+    ]
+
+
+def test_what_cannot_be_called_cannot_be_called_together() -> None:
+    """The same sentences."""
+    with pytest.raises(TaskError, match=r"unknown task 'stroe'; did you mean 'store'\?"):
+        together(read_tasks(STORE), [("store", ["b1"]), ("stroe", ["b2"])])

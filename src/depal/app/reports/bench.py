@@ -17,7 +17,7 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
     Returns:
         The report; it holds when every target is met.
     """
-    table = plain_table(f"{part}: medians", "figure", "value", "target", "unit", "n", "peer", "")
+    table = plain_table(f"{part}: medians", "figure", "value", "target", "unit", "n", "peers", "")
     fields: list[Json] = []
     for figure in figures:
         sign = "<=" if figure.better == "lower" else ">="
@@ -27,7 +27,7 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
             f"{sign} {figure.target:g}",
             figure.unit,
             str(figure.n),
-            "" if figure.peer is None else f"{figure.peer:.3g}",
+            ", ".join(f"{peer.name} {peer.value:.3g}" for peer in figure.peers),
             verdict(figure.met, "met", "missed"),
         )
         fields.append(
@@ -38,7 +38,7 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
                 "target": figure.target,
                 "better": figure.better,
                 "n": figure.n,
-                "peer": figure.peer,
+                "peers": {peer.name: peer.value for peer in figure.peers},
             }
         )
     return Report(

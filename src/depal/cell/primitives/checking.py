@@ -1,6 +1,7 @@
 """The primitives of `check`: show the held box to the reader, read its barcode."""
 
-from depal.cell.desk import Desk, ShowPlan
+from depal.cell.planning.desk import Desk
+from depal.cell.planning.plans import ShowPlan
 from depal.cell.guards import Guards
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT

@@ -2,7 +2,7 @@
 
 import asyncio
 
-from depal.cell.desk import Desk
+from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
 from depal.executive.engine import Report
 from depal.executive.events import Outcome

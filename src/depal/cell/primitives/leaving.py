@@ -1,7 +1,8 @@
 """The primitives of `query` and `leave`: find a place, carry the box there, set it down."""
 
 from depal.cell.departures import Fate
-from depal.cell.desk import CarryPlan, Desk
+from depal.cell.planning.desk import Desk
+from depal.cell.planning.plans import CarryPlan
 from depal.cell.guards import LOST, Guards
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
@@ -68,7 +69,9 @@ class Leaving:
             return LOST
         await ports.gripper.release()
         self._desk.confirm(plan)
-        await ports.arm.follow(self._desk.retreat(plan, ports.arm.joints()))
+        retreat = self._desk.retreat(plan)
+        if retreat is not None:
+            await ports.arm.follow(retreat)
         return None
 
     async def _tell(self, box: BoxId, plan: CarryPlan) -> None:

@@ -1,6 +1,6 @@
 """The primitive of `move` that differs: reach a box that stands in a place."""
 
-from depal.cell.desk import Desk
+from depal.cell.planning.desk import Desk
 from depal.cell.guards import Guards
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace

@@ -1,6 +1,6 @@
 """The primitive of `query`: where the box goes, by the store's list and the room there is."""
 
-from depal.cell.desk import Desk
+from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId, StorageKind
 from depal.executive.engine import Call, Report
@@ -42,7 +42,7 @@ class Querying:
         """The first trolley of the list that holds something."""
         for place in places:
             storage = self._work.layout.storage(place)
-            filled = any(len(self._desk.books.map(p.id).boxes) for p in storage.places)
+            filled = any(place_map.boxes for place_map in self._desk.books.of(storage.id))
             if storage.kind is StorageKind.TROLLEY and filled:
                 return storage.id
         return None

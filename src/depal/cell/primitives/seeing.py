@@ -2,7 +2,7 @@
 
 from depal.cell.choosing import Choice, choose, priority_of
 from depal.cell.departures import Fate
-from depal.cell.desk import Desk
+from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Recognition

@@ -1,6 +1,7 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
-from depal.cell.desk import Desk, PickPlan
+from depal.cell.planning.desk import Desk
+from depal.cell.planning.plans import PickPlan
 from depal.cell.guards import Guards
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId

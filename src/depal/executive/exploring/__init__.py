@@ -2,5 +2,6 @@
 
 from depal.executive.exploring.explorer import explore
 from depal.executive.exploring.result import Exploration, Hazard, HazardKind, TraceStep, Wait
+from depal.executive.exploring.together import together
 
-__all__ = ["Exploration", "Hazard", "HazardKind", "TraceStep", "Wait", "explore"]
+__all__ = ["Exploration", "Hazard", "HazardKind", "TraceStep", "Wait", "explore", "together"]

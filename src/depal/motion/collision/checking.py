@@ -109,7 +109,7 @@ def _hand_hits(case: Case, work: Array, hit: npt.NDArray[np.int64]) -> bool:
         rz = abs(rotation[2, 0]) * half[0] + abs(rotation[2, 1]) * half[1]
         rz += abs(rotation[2, 2]) * half[2]
         hit[0] = HAND + part
-        if centre[2] - rz < (0.0 if held else margins.floor):
+        if centre[2] - rz < margins.floor:
             hit[1] = FLOOR
             return True
         if _outside(case.fence, margins.floor, centre[0], centre[1], rx, ry):
@@ -192,20 +192,23 @@ def _arm_hits(case: Case, ends: Array, hit: npt.NDArray[np.int64]) -> bool:
 
 @loop_kernel
 def _itself_hits(case: Case, ends: Array, work: Array, hit: npt.NDArray[np.int64]) -> bool:
-    """The hand against links 0 to 4, and links 3 to 5 against links 0 and 1."""
+    """The hand against links 0 to 4, and the arm's links against each other."""
     arm, count = case.arm, len(case.hand.centre)
     for c in range(len(arm.link)):
-        link = arm.link[c]
-        if link > 4:  # noqa: PLR2004 - the wrist is next to the hand
+        if arm.link[c] > 4:  # noqa: PLR2004 - the wrist is next to the hand
             continue
         p, q = ends[c, 0], ends[c, 1]
         steps = arm.spheres[c] - 1
+        mx, my, mz = (p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2
+        long = math.sqrt((p[0] - mx) ** 2 + (p[1] - my) ** 2 + (p[2] - mz) ** 2)
         for part in range(count):
             held = case.holding and part == count - 1
-            if link > 2 and not held:  # noqa: PLR2004 - the tool cannot fold onto the forearm
-                continue
             margin = case.margins.held if held else case.margins.tool
             centre, rotation, half = work[part, 0], work[part, 1:4], case.hand.half[part]
+            room = long + arm.cover[c] + margin + half[0] + half[1] + half[2]
+            away = (centre[0] - mx) ** 2 + (centre[1] - my) ** 2 + (centre[2] - mz) ** 2
+            if away > room * room:
+                continue
             for step in range(steps + 1):
                 u = step / steps if steps > 0 else 0.0
                 x, y = p[0] + u * (q[0] - p[0]), p[1] + u * (q[1] - p[1])
@@ -213,15 +216,12 @@ def _itself_hits(case: Case, ends: Array, work: Array, hit: npt.NDArray[np.int64
                 if sphere_meets_box(x, y, z, arm.cover[c] + margin, centre, rotation, half):
                     hit[0], hit[1] = HAND + part, ITSELF + c
                     return True
-        if link > 1:
-            continue
-        for other in range(len(arm.link)):
-            if arm.link[other] < 3 or arm.link[other] > 5:  # noqa: PLR2004 - forearm and wrist
-                continue
-            room = arm.radius[c] + arm.radius[other] + case.margins.arm
-            if segments_within(p, q, ends[other, 0], ends[other, 1], room):
-                hit[0], hit[1] = other, ITSELF + c
-                return True
+    for k in range(len(arm.pairs)):
+        upper, lower = arm.pairs[k, 0], arm.pairs[k, 1]
+        room = arm.radius[upper] + arm.radius[lower] + case.margins.arm
+        if segments_within(ends[lower, 0], ends[lower, 1], ends[upper, 0], ends[upper, 1], room):
+            hit[0], hit[1] = upper, ITSELF + lower
+            return True
     return False
 
 

@@ -15,6 +15,9 @@ Array = npt.NDArray[np.float64]
 SPACING = 0.6
 """Spheres along a capsule stand at most this many radii apart."""
 
+APART = 3
+"""Links nearer in the chain overlap by construction; the forearm may still meet the column."""
+
 
 class Solids(NamedTuple):
     """Boxes in one frame.
@@ -106,6 +109,7 @@ class Arm(NamedTuple):
         radius: (m,) [m].
         spheres: (m,) how many spheres cover each for the test against boxes.
         cover: (m,) their radius [m]: so that they contain the capsule.
+        pairs: (p, 2) capsules of links that could meet: the upper one, the lower one.
     """
 
     link: npt.NDArray[np.int64]
@@ -114,6 +118,7 @@ class Arm(NamedTuple):
     radius: Array
     spheres: npt.NDArray[np.int64]
     cover: Array
+    pairs: npt.NDArray[np.int64]
 
 
 def arm_of(robot: Robot) -> Arm:
@@ -127,7 +132,14 @@ def arm_of(robot: Robot) -> Arm:
     step = length / np.maximum(count - 1, 1)
     cover = np.sqrt(radius**2 + (step / 2) ** 2)
     link = np.array([shape.link for shape in shapes], np.int64)
-    return Arm(link, start, end, radius, count, cover)
+    pairs = [
+        (upper, lower)
+        for lower in range(len(link))
+        for upper in range(len(link))
+        if link[upper] - link[lower] >= APART or (link[lower], link[upper]) == (1, 3)
+    ]
+    together = np.array(pairs, np.int64).reshape(-1, 2)
+    return Arm(link, start, end, radius, count, cover, together)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

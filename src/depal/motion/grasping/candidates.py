@@ -151,7 +151,7 @@ def _on_face(
         centres = np.array([turn @ np.array([0.0, *at]) for _, at in plate.cups])[:, 1:]
         seen: set[tuple[int, ...]] = set()
         for demerit, (du, dv) in _offsets(centres, face, radius):
-            at = centres + (du, dv)
+            at = centres + np.array((du, dv))
             inside = (np.abs(at[:, 0]) <= face.width / 2 - radius + 1e-9) & (
                 np.abs(at[:, 1]) <= face.height / 2 - radius + 1e-9
             )

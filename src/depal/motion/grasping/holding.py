@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from depal.domain import Cup, Grasp, Tool
 from depal.domain.cup_group import CupGroup
+from depal.geometry import Vector3
 
 Floats = npt.NDArray[np.float64]
 
@@ -33,6 +34,7 @@ class Holding:
         mass: [kg].
         pull: the full pull of the cups [N].
         safety: the planner counts on the pull divided by this.
+        inertia: (3, 3) of the box about its centre [kg m^2].
     """
 
     group: CupGroup
@@ -42,10 +44,21 @@ class Holding:
     mass: float
     pull: float
     safety: float
+    inertia: Floats
 
     @classmethod
-    def of(cls, grasp: Grasp, mass: float, tool: Tool, known: Groups | None = None) -> "Holding":
-        """A box of a mass [kg], held by a grasp; groups of cups that are known are not made anew."""
+    def of(
+        cls,
+        grasp: Grasp,
+        mass: float,
+        tool: Tool,
+        known: Groups | None = None,
+        size: Vector3 | None = None,
+    ) -> "Holding":
+        """A box of a mass [kg], held by a grasp; groups of cups that are known are not made anew.
+
+        Without a size [m] its mass is in one point, which is enough at rest.
+        """
         plane = tool.module(grasp.cups[0][0], folded=grasp.folded).flange_from_face
         key = (grasp.folded, grasp.cups)
         group = None if known is None else known.get(key)
@@ -62,18 +75,50 @@ class Holding:
             mass,
             suction.cup_force * len(grasp.cups),
             tool.safety,
+            np.zeros((3, 3)) if size is None else _inertia(grasp, mass, size),
         )
 
-    def share(self, specific_force: Floats, safety: float | None = None) -> float:
+    def share_in_motion(
+        self,
+        acceleration: Floats,
+        angular_acceleration: Floats,
+        angular_velocity: Floats,
+        gravity: Floats,
+        safety: float | None = None,
+    ) -> float:
+        """The same for a flange that turns; everything in the flange's frame.
+
+        Args:
+            acceleration: (3,) of the flange's origin [m/s^2].
+            angular_acceleration: (3,) [rad/s^2].
+            angular_velocity: (3,) [rad/s].
+            gravity: (3,) downwards [m/s^2].
+            safety: divides the pull; the tool's if left out.
+        """
+        spin, arm = angular_velocity, self.centre
+        moved = acceleration + np.cross(angular_acceleration, arm)
+        moved = moved + np.cross(spin, np.cross(spin, arm)) - gravity
+        turning = self.inertia @ angular_acceleration + np.cross(spin, self.inertia @ spin)
+        return self.share(moved, safety, turning)
+
+    def share(
+        self,
+        specific_force: Floats,
+        safety: float | None = None,
+        turning: Floats | None = None,
+    ) -> float:
         """How much of what is counted on a motion uses; above 1 it is too much.
 
         Args:
             specific_force: (3,) what the cups must give the box per mass, in the flange's frame:
                 its acceleration minus gravity [m/s^2].
             safety: divides the pull; the tool's if left out.
+            turning: (3,) the moment about the centre that turns the box, nothing if left out [N m].
         """
         force = -self.mass * specific_force  # on the cups by the box
         moment = np.cross(self.centre - self.middle, force)
+        if turning is not None:
+            moment = moment - turning
         into_face = self.flange_from_face.T
         counted = self.pull / (self.safety if safety is None else safety)
         share, _ = self.group.load_share(into_face @ force, into_face @ moment, counted)
@@ -84,6 +129,14 @@ def static_share(grasp: Grasp, mass: float, tool: Tool, known: Groups | None = N
     """The share of what is counted on that holding still uses, the box upright."""
     up = np.array(grasp.box_from_flange.rotation)[2]  # the box's z, in the flange's frame
     return Holding.of(grasp, mass, tool, known).share(G * up)
+
+
+def _inertia(grasp: Grasp, mass: float, size: Vector3) -> Floats:
+    """Of a box whose mass is spread evenly, in the flange's frame (3, 3) [kg m^2]."""
+    squares = np.array(size) ** 2
+    turn = np.array(grasp.flange_from_box.rotation)
+    about: Floats = turn @ np.diag(mass * (squares.sum() - squares) / 12) @ turn.T
+    return about
 
 
 def _group(grasp: Grasp, tool: Tool) -> CupGroup:

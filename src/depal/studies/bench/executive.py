@@ -6,6 +6,7 @@ from itertools import islice
 from depal.executive.checking import check
 from depal.executive.engine import Call, Engine
 from depal.executive.exploring import explore
+from depal.studies.bench.executive_cpp import behaviortree_cpp_tick
 from depal.studies.bench.executive_peers import gtpyhop_plan, py_trees_tick
 from depal.studies.bench.executive_restart import restart_figures
 from depal.studies.bench.executive_rim import (
@@ -14,7 +15,7 @@ from depal.studies.bench.executive_rim import (
     simulated_figure,
 )
 from depal.studies.bench.executive_work import Shift, percentile, store_tasks
-from depal.studies.bench.figure import Figure, median_seconds
+from depal.studies.bench.figure import Figure, median_seconds, peers_of
 from depal.studies.sweep import Progress, no_progress
 
 STORES = (1, 60, 600, 2000)
@@ -70,10 +71,13 @@ def _event(n: int, inputs: int) -> tuple[Figure, Figure]:
     """An input's time divided by the events that it leads to, its median and 99th percentile."""
     costs = [1e6 * cost for cost in islice(_costs(n), _WARM, _WARM + inputs)]
     name = f"one event, {n:,} allocated store{'s' if n > 1 else ''}"
-    tick = py_trees_tick(n, _PEER_TICKS[n]) if n in _PEER_TICKS else None
-    peer = None if tick is None else 1e6 * tick
+    ticks = _PEER_TICKS.get(n, 0)
+    ticking = {
+        "py_trees": py_trees_tick(n, ticks) if ticks else None,
+        "BehaviorTree.CPP": behaviortree_cpp_tick(n, ticks) if ticks else None,
+    }
     return (
-        Figure(name, percentile(costs, 50), "us", 20.0, "lower", inputs, peer),
+        Figure(name, percentile(costs, 50), "us", 20.0, "lower", inputs, peers_of(ticking, 1e6)),
         Figure(f"{name}, p99", percentile(costs, 99), "us", 100.0, "lower", inputs),
     )
 
@@ -86,13 +90,12 @@ def _costs(n: int) -> Iterator[float]:
 
 
 def _allocation(allocations: int = 600) -> Figure:
-    """One more store beside up to 600 others; the peer plans one."""
+    """One more store beside up to 600 others; GTPyhop plans one."""
     engine = Engine(store_tasks())
     calls = ([Call("store", (f"b{number}",))] for number in range(allocations + 1))
     seconds = median_seconds(lambda: engine.allocate(next(calls), 0.0), allocations)
-    plan = gtpyhop_plan(boxes=1)
-    peer = None if plan is None else 1e6 * plan
-    return Figure("allocate one store", 1e6 * seconds, "us", 250.0, "lower", allocations, peer)
+    peers = peers_of({"GTPyhop": gtpyhop_plan(boxes=1)}, 1e6)
+    return Figure("allocate one store", 1e6 * seconds, "us", 250.0, "lower", allocations, peers)
 
 
 def _check() -> Figure:

@@ -8,7 +8,7 @@ from importlib import import_module
 from itertools import count, islice
 from statistics import median
 from types import ModuleType
-from typing import Any
+from typing import Any, Protocol
 
 from depal.executive.conditions import Key, Value
 from depal.executive.schema import Task
@@ -28,10 +28,22 @@ def py_trees_tick(stores: int, ticks: int) -> float | None:
     Returns:
         The median time of a tick of all trees [s], or None where py_trees is not installed.
     """
-    library = _import("py_trees")
-    if library is None:
-        return None
-    forest = Forest(library, stores)
+    library = imported("py_trees")
+    return None if library is None else median_tick(Forest(library, stores), ticks)
+
+
+class Ticked(Protocol):
+    """Trees that look at all facts whenever something may have changed."""
+
+    def tick(self) -> None:
+        """Ticks every tree once, the oldest first."""
+
+    def end_one(self) -> None:
+        """The primitive that runs has done what it is for; a store that is done is replaced."""
+
+
+def median_tick(forest: Ticked, ticks: int) -> float:
+    """The median time of a tick of all trees, each after one more action has ended [s]."""
     seconds = []
     for _ in range(ticks):
         forest.end_one()
@@ -170,7 +182,7 @@ def gtpyhop_planner(boxes: int) -> Callable[[], list[tuple[str, ...]]] | None:
         What plans once, from the beginning; None where GTPyhop is not installed.
     """
     with redirect_stdout(io.StringIO()):  # it greets
-        library = _import("gtpyhop")
+        library = imported("gtpyhop")
         if library is None:
             return None
         library.set_verbose_level(0)
@@ -212,7 +224,8 @@ def _method(task: Task) -> Callable[[Any, str], list[tuple[str, str]]]:
     return decompose
 
 
-def _import(name: str) -> ModuleType | None:
+def imported(name: str) -> ModuleType | None:
+    """A peer, where it is installed."""
     try:
         return import_module(name)
     except ImportError:

@@ -1,11 +1,10 @@
 """Speed of a restart: folding a journal of 100,000 events, with and without a snapshot."""
 
-from collections.abc import Iterator
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from depal.executive.engine import Engine
-from depal.executive.events import Event, decode, encode
+from depal.executive.events import decoded, encode
 from depal.executive.journal import Entry, SqliteJournal
 from depal.executive.restart import restored, resumed
 from depal.executive.runtime import SNAPSHOT_EVERY
@@ -61,14 +60,10 @@ def write_journal(path: Path, events: int) -> None:
 def folded(path: Path) -> Engine:
     """The engine that the whole journal leads to."""
     with SqliteJournal(path) as journal:
-        return restored(store_tasks(), _events(journal, after=0))
+        return restored(store_tasks(), decoded(journal.read()))
 
 
 def recalled(path: Path) -> Engine:
     """The same engine, from the snapshot and the events after it."""
     with SqliteJournal(path) as journal:
         return resumed(store_tasks(), journal)
-
-
-def _events(journal: SqliteJournal, after: int) -> Iterator[Event]:
-    return (decode(record.at, record.kind, record.body) for record in journal.read(after))

@@ -2,10 +2,23 @@
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from statistics import median
 from typing import Literal
+
+
+@dataclass(frozen=True, slots=True)
+class Peer:
+    """Another implementation's value in the same run.
+
+    Attributes:
+        name: of the implementation.
+        value: in the figure's unit.
+    """
+
+    name: str
+    value: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -15,11 +28,11 @@ class Figure:
     Attributes:
         name: what was measured.
         value: the median of the repetitions.
-        unit: of value, target and peer.
+        unit: of value, target and peers.
         target: what it should reach.
         better: whether lower or higher values are better.
         n: how many repetitions.
-        peer: another implementation's value in the same run, or None.
+        peers: others at the same work, where they are installed.
     """
 
     name: str
@@ -28,7 +41,7 @@ class Figure:
     target: float
     better: Literal["lower", "higher"]
     n: int
-    peer: float | None = None
+    peers: tuple[Peer, ...] = ()
 
     @property
     def met(self) -> bool:
@@ -36,6 +49,16 @@ class Figure:
         if math.isnan(self.value):
             return False
         return self.value <= self.target if self.better == "lower" else self.value >= self.target
+
+
+def peers_of(seconds: Mapping[str, float | None], scale: float) -> tuple[Peer, ...]:
+    """The peers that are installed.
+
+    Args:
+        seconds: by name; None where one is not installed.
+        scale: the figure's units in a second.
+    """
+    return tuple(Peer(name, scale * s) for name, s in seconds.items() if s is not None)
 
 
 def median_seconds(work: Callable[[], object], repetitions: int) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from depal.domain import BoxId, Detection, Request
 from depal.geometry import OrientedBox
 from depal.selection import EXACT, BlockingGraph, ScoreRule, leaf_alone, select
-from depal.studies.bench.figure import Figure, median_seconds
+from depal.studies.bench.figure import Figure, median_seconds, peers_of
 from depal.studies.bench.peers import networkx_selection
 from depal.studies.pallets import X_MAX, guillotine_boxes
 from depal.studies.paper import WEIGHTS
@@ -77,7 +77,7 @@ def _one_selection(n: int, seed: int) -> Figure:
         target=_TARGET_MS[n],
         better="lower",
         n=repetitions,
-        peer=None if peer is None else peer * 1e3,
+        peers=peers_of({"networkx": peer}, 1e3),
     )
 
 

@@ -1,0 +1,215 @@
+"""`depal run`: from options to a report."""
+
+import time
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from depal.app.reports.report import Report
+from depal.app.run.case2 import NAME as CASE2
+from depal.app.run.case2 import case2_delivery, case2_requests
+from depal.app.run.inputs import cell_of, checked_speed, policy_of, refuse_what_cannot_work
+from depal.app.run.live import LiveView, watched
+from depal.app.run.record import Keeper
+from depal.app.run.summary import Left, Outcome, disagreements, run_report
+from depal.cell.controller import Controller
+from depal.cell.planning.desk import Desk
+from depal.cell.questions import Questions
+from depal.cell.reporting import Journalist
+from depal.cell.tasks import read_shipped_tasks
+from depal.cell.timekeeping import WAITING, Timekeeper, timed
+from depal.cell.workplace import Ports, Settings, Workplace
+from depal.domain import CellLayout, Delivery, Request
+from depal.errors import MissingPartError, SettingError, did_you_mean
+from depal.executive.clock import LoopClock, run_simulated
+from depal.executive.schema import Repository
+from depal.logistics import read_delivery, read_requests
+from depal.logistics.store import LocalStore, by_storage
+from depal.simulation.cell import SimulatedCell, build
+from depal.simulation.truth_sight import SightSettings
+
+DEFAULT = "dev-035"
+"""The delivery that is run when none is named: real, and the smallest that ships."""
+
+NONE = "none"
+
+PERCEPTIONS = ("truth",)
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """What `depal run` was asked for.
+
+    Attributes:
+        delivery: a reference, "case2", or "" for the one that is run by default.
+        cell: a cell file or the name of one that ships.
+        requests: a file of requests, "none", or "" for what the delivery brings.
+        w: the weight of Eq. (3).
+        policy: which boxes may be taken.
+        perception: where boxes come from.
+        seed: of every random number.
+        speed: share of the arm's full speed.
+        record: the folder to keep a record in.
+        cone: whether motions respect the suction's limits; only tests switch it off.
+    """
+
+    delivery: str = ""
+    cell: str = "default"
+    requests: str = ""
+    w: float = 0.5
+    policy: str = "paper"
+    perception: str = "truth"
+    seed: int = 0
+    speed: float = 1.0
+    record: Path | None = None
+    cone: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """Everything that a run needs, read and checked.
+
+    Attributes:
+        layout: the cell.
+        delivery: with its stack, or a bare note.
+        requests: known from their own times on.
+        settings: of the controller.
+        seed: of every random number.
+        sight: how good the perception is.
+        cone: whether motions respect the suction's limits.
+    """
+
+    layout: CellLayout
+    delivery: Delivery
+    requests: tuple[Request, ...]
+    settings: Settings
+    seed: int = 0
+    sight: SightSettings = SightSettings()
+    cone: bool = True
+
+
+def run_delivery(options: Options, *, watch: bool = False) -> Report:
+    """Reads everything, runs, and sums up.
+
+    Raises:
+        InputError: something that was given cannot be used; nothing has moved.
+    """
+    job = prepared(options)
+    outcome = run_job(job, record=options.record, watch=watch)
+    return run_report(outcome, options.perception)
+
+
+def prepared(options: Options) -> Job:
+    """Reads and checks what a run needs.
+
+    Raises:
+        InputError: with everything that is wrong with the first input that is wrong.
+    """
+    if options.perception not in PERCEPTIONS:
+        what = f"{options.perception!r} is not there yet"
+        exists = did_you_mean(options.perception, PERCEPTIONS)
+        raise SettingError("--perception", what, exists=exists)
+    layout = cell_of(options.cell)
+    delivery, requests = _delivery_and_requests(options)
+    refuse_what_cannot_work(layout, delivery)
+    settings = Settings(
+        w=options.w, policy=policy_of(options.policy), speed=checked_speed(options.speed)
+    )
+    recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
+    return Job(layout, delivery, requests, settings, options.seed, recognised, options.cone)
+
+
+def _delivery_and_requests(options: Options) -> tuple[Delivery, tuple[Request, ...]]:
+    if options.delivery == CASE2:
+        delivery, requests = case2_delivery(), case2_requests()
+    else:
+        delivery, requests = read_delivery(options.delivery or DEFAULT), ()
+    if options.requests == NONE:
+        return delivery, ()
+    if options.requests:
+        return delivery, read_requests(Path(options.requests), delivery)
+    return delivery, requests
+
+
+def run_job(job: Job, *, record: Path | None = None, watch: bool = False) -> Outcome:
+    """Runs in simulated time.
+
+    Args:
+        job: what to do.
+        record: the folder to keep a record in.
+        watch: whether somebody watches in the terminal.
+    """
+    began = time.perf_counter()
+    tasks = read_shipped_tasks()
+    with LocalStore() as store, Keeper.open(record, tasks) as keeper:
+        outcome = run_simulated(_run(job, store, keeper, tasks, watch=watch))
+        keeper.write_choices()
+    return replace(outcome, wall_seconds=time.perf_counter() - began)
+
+
+async def _run(
+    job: Job, store: LocalStore, keeper: Keeper, tasks: Repository, *, watch: bool
+) -> Outcome:
+    clock = LoopClock()
+    cell = build(job.layout, job.delivery, job.seed, clock=clock, sight=job.sight)
+    places = by_storage(job.layout.places, without=job.layout.aside)
+    store.seed_places([job.delivery], places, seed=job.seed)
+    times = Timekeeper(clock)
+    ports = timed(_ports(cell, store, clock), times)
+    work = Workplace(job.layout, job.delivery, ports, job.settings, Questions(ports.person, clock))
+    desk = Desk(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
+    notes = Journalist()
+    controller = Controller(work, desk, notes, tasks, keeper.journal)
+    keeper.listen_to(notes)
+    view = LiveView(work, len(job.delivery.boxes))
+    view.listen_to(notes)
+    with watched(view) if watch else nullcontext():
+        await controller.empty_pallet(job.requests)
+    return _outcome(job, work, desk, cell, keeper, times)
+
+
+def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:
+    if cell.reader is None:
+        raise MissingPartError("the simulated cell has no barcode reader")
+    return Ports(
+        arm=cell.arm,
+        gripper=cell.gripper,
+        reader=cell.reader,
+        bays=cell.bays,
+        safety=cell.safety,
+        person=cell.person,
+        store=store,
+        sight=cell.sight,
+        clock=clock,
+    )
+
+
+def _outcome(
+    job: Job, work: Workplace, desk: Desk, cell: SimulatedCell, keeper: Keeper, times: Timekeeper
+) -> Outcome:
+    boxes = len(job.delivery.boxes)
+    left = tuple(
+        Left(box.id, work.left_behind.get(box.id, "the run ended")) for box in work.pile.boxes
+    )
+    sequence = work.departures.sequence
+    shares = times.shares(work.now)
+    return Outcome(
+        delivery=job.delivery.id,
+        boxes=boxes,
+        departures=sequence,
+        left=left,
+        wishes=tuple(work.wishes),
+        questions=work.questions.all,
+        referee=cell.referee.summary(),
+        disagreements=disagreements(cell.referee, sequence, left, boxes),
+        sim_seconds=work.now,
+        waiting_seconds=shares[WAITING],
+        wall_seconds=0.0,
+        shares=shares,
+        plan_seconds=tuple(desk.spent),
+        policy=job.settings.policy.value,
+        w=job.settings.w,
+        seed=job.seed,
+        speed=job.settings.speed,
+        events_sha256=keeper.events_sha256,
+    )

@@ -1,0 +1,1 @@
+"""Motions for the primitives: planned ahead where possible, charged where not."""

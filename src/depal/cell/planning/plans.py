@@ -1,0 +1,97 @@
+"""Planned motions, ready to be followed."""
+
+from dataclasses import dataclass
+
+from depal.domain import BoxId, Grasp, Joints, Perceived, PlaceId
+from depal.geometry import Pose, Vector3
+from depal.logistics.placing import Spot
+from depal.motion.collision.values import Array
+from depal.motion.moves import Part, Pick
+from depal.ports import Trajectory
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PickPlan:
+    """How a box is taken.
+
+    Attributes:
+        box: as it was perceived.
+        mass: as expected [kg].
+        pick: the paths.
+        approach: from where the arm was expected to the plane of touch.
+        lift: off what it stands on.
+    """
+
+    box: Perceived
+    mass: float
+    pick: Pick
+    approach: Trajectory
+    lift: Trajectory
+
+    @property
+    def grasp(self) -> Grasp:
+        """How it is held."""
+        return self.pick.grasp
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Load:
+    """A box that is held, or will be when its pick is done, and where its next motion begins.
+
+    Attributes:
+        box: its name.
+        grasp: how it is held.
+        size: along its own axes [m].
+        mass: [kg].
+        lead: straight parts that come first: the way out of the pile.
+        start: (6,) where free space begins [rad].
+    """
+
+    box: BoxId
+    grasp: Grasp
+    size: Vector3
+    mass: float
+    lead: tuple[Part, ...]
+    start: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CarryPlan:
+    """How a held box gets into its place.
+
+    Attributes:
+        load: the box.
+        place: where.
+        spot: in the place.
+        target: `cell_from_box` where it will stand.
+        motion: to just above the spot.
+        descent: straight down, further than needed.
+        retreat: (n, 6) straight out again, empty [rad].
+    """
+
+    load: Load
+    place: PlaceId
+    spot: Spot
+    target: Pose
+    motion: Trajectory
+    descent: Trajectory
+    retreat: Array
+
+    @property
+    def end(self) -> Joints:
+        """Where the arm is afterwards [rad]."""
+        a, b, c, d, e, f = self.retreat[-1].tolist()
+        return (a, b, c, d, e, f)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ShowPlan:
+    """How a held box is shown to the reader.
+
+    Attributes:
+        first: to the first side that is shown.
+        turns: from each side to the next.
+    """
+
+    first: Trajectory
+    turns: tuple[Trajectory, ...]

@@ -1,0 +1,54 @@
+"""What the arm must not touch, as the cell believes: the scene for the planner."""
+
+from collections.abc import Iterable
+
+from depal.cell.pile import Pile
+from depal.domain import BoxId, CellLayout, PlaceId
+from depal.geometry import OrientedBox, Pose
+from depal.logistics.placing import Spot
+from depal.motion.collision import Scene, fixed_solids
+
+
+class Surroundings:
+    """The cell's own solids, the pile, and what was put away; kept up to date by its owner."""
+
+    def __init__(self, layout: CellLayout) -> None:
+        """Nothing stands in any place yet."""
+        self._fixed = fixed_solids(layout)
+        self._placed: dict[BoxId, tuple[PlaceId, OrientedBox]] = {}
+
+    def put(self, box: BoxId, place: PlaceId, solid: OrientedBox) -> None:
+        """A box stands, or will stand, in a place."""
+        self._placed[box] = (place, solid)
+
+    def take(self, box: BoxId) -> OrientedBox | None:
+        """A box does not stand in a place any more."""
+        entry = self._placed.pop(box, None)
+        return None if entry is None else entry[1]
+
+    def where(self, box: BoxId) -> OrientedBox | None:
+        """A box that was put away, in the cell frame."""
+        entry = self._placed.get(box)
+        return None if entry is None else entry[1]
+
+    def empty(self, places: Iterable[PlaceId]) -> None:
+        """Places are empty again."""
+        gone = set(places)
+        self._placed = {box: entry for box, entry in self._placed.items() if entry[0] not in gone}
+
+    def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
+        """Everything that stands around, one box left out."""
+        cases = [(str(box.id), box.shape) for box in pile.boxes if box.id != without]
+        cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
+        return Scene.of(self._fixed, cases)
+
+
+def target_of(cell_from_place: Pose, spot: Spot, turn: Pose) -> Pose:
+    """`cell_from_box` of a box at a spot, turned as it is held.
+
+    Args:
+        cell_from_place: of the place.
+        spot: where.
+        turn: `place_from_box` as far as it turns.
+    """
+    return cell_from_place @ Pose(spot.place_from_box.translation, turn.rotation)

@@ -1,0 +1,68 @@
+"""From planned paths to trajectories, with this cell's speeds and this box's suction."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from depal.domain import CellLayout
+from depal.motion.collision import Checker
+from depal.motion.collision.values import Array
+from depal.motion.grasping import Holding
+from depal.motion.moves import Kind, Part
+from depal.motion.timing import Leg, time_path
+from depal.ports import Trajectory
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Times paths for one cell.
+
+    Attributes:
+        layout: the cell.
+        speed: share of the arm's full speed.
+        cone: whether the suction's limits are respected; switched off by tests alone.
+    """
+
+    layout: CellLayout
+    speed: float = 1.0
+    cone: bool = True
+
+    def along(
+        self, parts: Sequence[Part], holding: Holding | None = None, checker: Checker | None = None
+    ) -> Trajectory | None:
+        """The fastest trajectory along some parts; None where the suction would not hold."""
+        speeds = self.layout.speeds
+        legs = [
+            Leg(
+                part.path,
+                curve=part.kind is Kind.STRAIGHT,
+                speed=speeds.straight if part.kind is Kind.STRAIGHT else speeds.flange,
+                touching=part.touching,
+            )
+            for part in parts
+        ]
+        return time_path(
+            legs,
+            self.layout.robot,
+            held=holding if self.cone else None,
+            clear=None if checker is None else checker.path_free,
+            speed=self.speed,
+        )
+
+    def slowly(self, part: Part, holding: Holding | None = None) -> Trajectory | None:
+        """Along a straight part at the speed at which boxes are set down."""
+        leg = Leg(part.path, curve=True, speed=self.layout.speeds.set_down, touching=part.touching)
+        held = holding if self.cone else None
+        return time_path([leg], self.layout.robot, held=held, speed=self.speed)
+
+
+def rebased(path: Array, start: Array) -> Array:
+    """A path that begins elsewhere: the difference fades out along it.
+
+    Args:
+        path: (n, 6) [rad].
+        start: (6,) where the arm really is, not far from the path's start [rad].
+    """
+    share = np.linspace(1.0, 0.0, len(path))[:, None]
+    return path + share * (start - path[0])

@@ -1,0 +1,274 @@
+"""From legs with corners to one smooth path: corners are rounded off as far as it is allowed.
+
+A corner is cut by the cubic that leaves the one side and joins the other at the same distance, with
+their rates; between straight joint lines it is a parabola. It is as long as a check of the rounded
+corner allows, or else so short that nothing moves further than a bound; where neither can be had
+the arm stops.
+"""
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from depal.geometry import kernel
+from depal.motion.kinematics import link_frames
+from depal.motion.timing.legs import Floats, Leg, Path, hermite, piece_end, piece_rate
+
+Clear = Callable[[Floats], bool]
+"""Whether no row of (n, 6) configurations touches anything."""
+
+SAME = 1e-9
+"""Points closer than this in time at full speed are one [s]."""
+
+REVERSAL = -0.9
+"""Below this cosine between the sides of a corner the arm turns back, and stops [-]."""
+
+SMOOTH = 1.0 - 1e-6
+"""Above this cosine there is no corner [-]."""
+
+PITCH = 0.06
+"""A curve's points are thinned to about this distance, in time at full speed [s]."""
+
+CHECKS = 0.01
+"""A rounded corner is checked at points this far apart, in time at full speed [s]."""
+
+TRIES = 7
+"""So often a rounded corner is halved before the arm stops in it."""
+
+AHEAD = 0.4
+"""Deviations are those of the flange and of a point so far ahead of it [m]."""
+
+
+@dataclass(slots=True)
+class _Piece:
+    """One cubic on its way to a path."""
+
+    coefficients: Floats
+    length: float
+    leg: int
+    room: float  # how much of it a corner may take at either end
+    corner: bool  # whether there may be one at its end
+    blend: bool = False
+
+    def cut(self, start: float, end: float) -> None:
+        """Keeps what lies between two parameters."""
+        p0, t0 = piece_end(self.coefficients, start), piece_rate(self.coefficients, start)
+        p1, t1 = piece_end(self.coefficients, end), piece_rate(self.coefficients, end)
+        self.length = end - start
+        self.coefficients = hermite(p0, t0, p1, t1, self.length)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Smoother:
+    """How corners are rounded off.
+
+    Attributes:
+        speed: (6,) of the axes [rad/s]; distances are times at full speed.
+        dims: (7,) of the arm's geometry [m].
+        clear: checks a rounded corner between free joint lines; without it none is rounded further
+            than its leg allows.
+    """
+
+    speed: Floats
+    dims: Floats
+    clear: Clear | None = None
+
+    def path(self, legs: Sequence[Leg]) -> Path | None:
+        """The path through all legs; None where nothing moves."""
+        pieces = [piece for k, leg in enumerate(legs) for piece in self._pieces(leg, k)]
+        out: list[_Piece] = []
+        stops, worst = [True], 0.0
+        for k, piece in enumerate(pieces[:-1]):
+            blend, off, stop = self._rounded(piece, pieces[k + 1], legs)
+            worst = max(worst, off)
+            out.append(piece)
+            if blend is not None:
+                out.append(blend)
+                stops.append(False)
+            stops.append(stop)
+        if not pieces:
+            return None
+        out.append(pieces[-1])
+        stops.append(True)
+        return Path(
+            np.stack([piece.coefficients for piece in out]),
+            np.array([piece.length for piece in out]),
+            _marks(out, len(legs)),
+            np.array(stops),
+            _speeds(out, legs),
+            worst,
+        )
+
+    def _pieces(self, leg: Leg, number: int) -> list[_Piece]:
+        points, spans = _distinct(leg.points, self.speed, PITCH if leg.curve else 0.0)
+        count = len(spans)
+        if not count:
+            return []
+        if leg.curve and count > 1:
+            at = np.concatenate(((0.0,), np.cumsum(spans)))
+            rates = spline_rates(at, points)
+            left, right = rates[:-1], rates[1:]
+        else:
+            left = right = np.diff(points, axis=0) / spans[:, None]
+        return [
+            _Piece(
+                hermite(points[k], left[k], points[k + 1], right[k], float(spans[k])),
+                float(spans[k]),
+                number,
+                room=float(spans[k]) / 2,
+                corner=not leg.curve or k + 1 == count,
+            )
+            for k in range(count)
+        ]
+
+    def _rounded(
+        self, before: _Piece, after: _Piece, legs: Sequence[Leg]
+    ) -> tuple[_Piece | None, float, bool]:
+        """The blend at the corner between two pieces, how far it goes, whether the arm stops."""
+        if not before.corner:
+            return None, 0.0, False
+        corner = piece_end(before.coefficients, before.length)
+        t0, t1 = piece_rate(before.coefficients, before.length), after.coefficients[1]
+        cosine = float(t0 @ t1) / math.sqrt(float(t0 @ t0) * float(t1 @ t1))
+        if cosine > SMOOTH and np.allclose(t0, t1, rtol=1e-3, atol=1e-6):
+            return None, 0.0, False
+        if cosine < REVERSAL:
+            return None, 0.0, True
+        checked = self.clear if before.leg == after.leg else None
+        allowed = legs[before.leg].rounding
+        size = min(before.room, after.room)
+        for _ in range(TRIES if allowed > 0.0 else 0):
+            blend = self._blend(before, after, size)
+            if checked is not None:
+                if checked(_sampled(blend, 2 * size)):
+                    return self._joined(before, after, blend, size), 0.0, False
+                size /= 2
+                continue
+            off = deviation(blend, size, corner, self.dims)
+            if off <= allowed:
+                return self._joined(before, after, blend, size), off, False
+            size *= min(0.7, 0.98 * allowed / off)
+        return None, 0.0, True
+
+    def _blend(self, before: _Piece, after: _Piece, size: float) -> Floats:
+        start = before.length - size
+        return hermite(
+            piece_end(before.coefficients, start),
+            piece_rate(before.coefficients, start),
+            piece_end(after.coefficients, size),
+            piece_rate(after.coefficients, size),
+            2 * size,
+        )
+
+    @staticmethod
+    def _joined(before: _Piece, after: _Piece, blend: Floats, size: float) -> _Piece:
+        before.cut(0.0, before.length - size)
+        after.cut(size, after.length)
+        return _Piece(blend, 2 * size, before.leg, 0.0, corner=False, blend=True)
+
+
+def _marks(pieces: list[_Piece], legs: int) -> Floats:
+    """The parameter where each leg starts, in the middle of its blend, and the end (legs + 1,)."""
+    ends = np.cumsum([piece.length for piece in pieces])
+    marks = np.full(legs + 1, ends[-1])
+    marks[0] = 0.0
+    for k in range(len(pieces) - 1, 0, -1):
+        before = pieces[k - 1]
+        middle = ends[k - 1] - (before.length / 2 if before.blend else 0.0)
+        marks[before.leg + 1 : pieces[k].leg + 1] = middle
+    return marks
+
+
+def _speeds(pieces: list[_Piece], legs: Sequence[Leg]) -> Floats:
+    """The greatest speed of the flange in each piece; a blend keeps that of both its sides."""
+    own = np.array([legs[piece.leg].speed for piece in pieces])
+    for k, piece in enumerate(pieces):
+        if piece.blend:
+            own[k] = min(own[k], own[k + 1])
+    return own
+
+
+@kernel
+def _distinct(points: Floats, speed: Floats, pitch: float) -> tuple[Floats, Floats]:
+    """Points that differ, thinned to a pitch, and the times between them at full speed [s]."""
+    n = len(points)
+    kept, spans = np.empty((n, 6)), np.empty(max(n - 1, 0))
+    kept[0] = points[0]
+    count, since = 1, 0.0
+    for k in range(1, n):
+        step = 0.0
+        span = 0.0
+        for axis in range(6):
+            step = max(step, abs(points[k, axis] - points[k - 1, axis]) / speed[axis])
+            span = max(span, abs(points[k, axis] - kept[count - 1, axis]) / speed[axis])
+        since += step
+        if k < n - 1 and since < pitch:
+            continue
+        if span < SAME:
+            continue
+        kept[count], spans[count - 1] = points[k], span
+        count += 1
+        since = 0.0
+    return kept[:count], spans[: count - 1]
+
+
+@kernel
+def spline_rates(at: Floats, points: Floats) -> Floats:
+    """The rates of the cubic spline through points, (n, 6).
+
+    Twice continuously differentiable; at the ends its rate is that of the parabola through the
+    last three points.
+    """
+    n = len(at)
+    lower, middle, upper = np.zeros(n), np.ones(n), np.zeros(n)
+    rates = np.empty((n, 6))
+    for end in range(2):
+        a, b, c = (0, 1, 2) if end == 0 else (n - 1, n - 2, n - 3)
+        if n == 2:  # noqa: PLR2004 - a line
+            rates[a] = (points[b] - points[a]) / (at[b] - at[a])
+            continue
+        h, g = at[b] - at[a], at[c] - at[b]
+        near, far = (points[b] - points[a]) / h, (points[c] - points[b]) / g
+        rates[a] = near + (near - far) * (h / (h + g))
+    for k in range(1, n - 1):
+        h, g = at[k] - at[k - 1], at[k + 1] - at[k]
+        lower[k], middle[k], upper[k] = g, 2 * (h + g), h
+        before, after = (points[k] - points[k - 1]) / h, (points[k + 1] - points[k]) / g
+        rates[k] = 3 * (g * before + h * after)
+    for k in range(1, n):
+        factor = lower[k] / middle[k - 1]
+        middle[k] -= factor * upper[k - 1]
+        rates[k] -= factor * rates[k - 1]
+    rates[n - 1] /= middle[n - 1]
+    for back in range(1, n):
+        k = n - 1 - back
+        rates[k] = (rates[k] - upper[k] * rates[k + 1]) / middle[k]
+    return rates
+
+
+@kernel
+def deviation(blend: Floats, size: float, corner: Floats, dims: Floats) -> float:
+    """How far the middle of a blend is from its corner: of the flange and of a point ahead [m]."""
+    frames = np.empty((7, 3, 4))
+    link_frames(corner, dims, frames)
+    there = frames[6].copy()
+    link_frames(piece_end(blend, size), dims, frames)
+    near, far = 0.0, 0.0
+    for row in range(3):
+        shift = frames[6, row, 3] - there[row, 3]
+        near += shift * shift
+        shift += AHEAD * (frames[6, row, 0] - there[row, 0])
+        far += shift * shift
+    return math.sqrt(max(near, far))
+
+
+def _sampled(blend: Floats, length: float) -> Floats:
+    """Configurations along a blend, close enough for a check, (n, 6)."""
+    u = np.linspace(0.0, length, max(3, math.ceil(length / CHECKS) + 1))[:, None]
+    points: Floats = blend[0] + u * (blend[1] + u * (blend[2] + u * blend[3]))
+    return points
+
+
+__all__ = ["Clear", "Smoother"]

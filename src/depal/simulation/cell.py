@@ -1,0 +1,91 @@
+"""The simulated cell: one world, and every device and person of it behind the ports."""
+
+from dataclasses import dataclass
+
+from depal.domain import CellLayout, Delivery
+from depal.executive.clock import Clock, LoopClock
+from depal.ports import BarcodeReader, Camera
+from depal.simulation.cases import cases_of
+from depal.simulation.devices import (
+    SimulatedArm,
+    SimulatedBays,
+    SimulatedGripper,
+    SimulatedSafety,
+)
+from depal.simulation.people import Policy, SimulatedPerson, first_choice
+from depal.simulation.referee import Referee
+from depal.simulation.stacking import stacked
+from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.world import World
+
+
+@dataclass(slots=True)
+class SimulatedCell:
+    """A cell whose devices share one world.
+
+    Attributes:
+        world: the physics.
+        arm: behind the port `Arm`.
+        gripper: behind `Gripper`.
+        bays: behind `Bays`.
+        safety: behind `Safety`.
+        person: behind `Person`.
+        sight: behind `Sight`, from the truth.
+        referee: for reports and tests only.
+        camera: behind `Camera`, where pictures are made.
+        reader: behind `BarcodeReader`, where pictures are made.
+    """
+
+    world: World
+    arm: SimulatedArm
+    gripper: SimulatedGripper
+    bays: SimulatedBays
+    safety: SimulatedSafety
+    person: SimulatedPerson
+    sight: TruthSight
+    referee: Referee
+    camera: Camera | None = None
+    reader: BarcodeReader | None = None
+
+
+def build(
+    layout: CellLayout,
+    delivery: Delivery,
+    seed: int = 0,
+    *,
+    clock: Clock | None = None,
+    start: float = 0.0,
+    sight: SightSettings | None = None,
+    policy: Policy = first_choice,
+) -> SimulatedCell:
+    """Builds a cell with a delivery on its pallet.
+
+    Args:
+        layout: the cell.
+        delivery: its stack is used; where it has none, the note is stacked.
+        seed: of all randomness in this cell.
+        clock: the loop's time where nothing else is said.
+        start: the time at the beginning [s].
+        sight: how good the perception from the truth is.
+        policy: how the worker answers.
+
+    Returns:
+        The cell with its stack settled and the arm parked.
+
+    Raises:
+        DeliveryError: a note whose cases do not fit on the pallet.
+    """
+    stack = delivery.stack if delivery.stack is not None else stacked(delivery)
+    time = clock or LoopClock()
+    world = World(layout, cases_of(delivery, stack, layout), seed, start)
+    safety = SimulatedSafety()
+    return SimulatedCell(
+        world,
+        SimulatedArm(world, time, safety),
+        SimulatedGripper(world, time),
+        SimulatedBays(world),
+        safety,
+        SimulatedPerson(world, time, policy),
+        TruthSight(world, time, sight),
+        Referee(world),
+    )
