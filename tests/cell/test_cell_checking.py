@@ -160,10 +160,10 @@ def test_capsules_are_as_long_in_every_posture(angles: tuple[float, ...]) -> Non
 
 
 @pytest.mark.parametrize("name", SHIPPED)
-def test_shipped_deliveries_can_be_taken_by_every_shipped_cell(name: str) -> None:
-    """As far as their notes tell."""
-    cell = shipped_cell(name)
-    assert [check_delivery_against_cell(cell, one) for one in shipped_deliveries()] == [()] * 10
+def test_a_real_delivery_can_be_taken_by_every_shipped_cell(name: str) -> None:
+    """As far as its note tells."""
+    for delivery in shipped_deliveries()[::4]:
+        assert check_delivery_against_cell(shipped_cell(name), delivery) == ()
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from depal.cell.checking.reader_reach import ReaderReach, check_reader_reach
 from depal.cell.checking.sight import Sight, check_sight
 from depal.cell.checking.sizes import USUAL, BoxSize
 from depal.cell.checking.standing import check_standing
-from depal.domain import CellLayout, PlaceId
+from depal.domain import Approach, CellLayout, PlaceId
 
 ALMOST_ALL = 0.99
 """Less of the pallet that is reached is worth a warning."""
@@ -49,6 +49,12 @@ class CellReport:
     def holds(self) -> bool:
         """Whether the cell can do its work: there are no errors."""
         return all(finding.weight is not Weight.ERROR for finding in self.findings)
+
+    def held(self, size: BoxSize, approach: Approach) -> bool:
+        """Whether there is a way to hold a box by its front or by its top."""
+        return any(
+            reach.held for reach in self.reader if reach.size == size and reach.approach is approach
+        )
 
     @property
     def reached(self) -> dict[PlaceId, float]:

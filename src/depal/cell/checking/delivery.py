@@ -66,9 +66,13 @@ def _product(layout: CellLayout, product: Product) -> Iterator[Problem]:
     where = f"'{product.gtin}' {product.name}"
     a, b, c = product.size
     ways = ((a, b, c), (a, c, b), (b, c, a))
-    refusals = [refusal(way, product.mass, layout.tool, layout.robot.payload) for way in ways]
-    if all(refusals):
-        yield Problem(where, f"cannot be held: {refusals[0]}")
+    said = ""
+    for way in ways:
+        said = refusal(way, product.mass, layout.tool, layout.robot.payload)
+        if not said:
+            break
+    if said:
+        yield Problem(where, f"cannot be held: {said}")
     if not any(fits(place, way) for place in layout.places.values() for way in ways):
         largest = max(layout.places.values(), key=lambda place: place.volume)
         width, height = largest.opening
