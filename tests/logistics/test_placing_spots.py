@@ -141,8 +141,34 @@ def test_boxes_that_were_put_where_they_could_go_never_overlap(
     assert place_map.fill < 1.0
 
 
+def pile_under(place_map: PlaceMap, spot: Spot) -> set[BoxId]:
+    """The boxes that share a pile with a spot: below it, or balanced on what is below it."""
+    under: list[Standing | Spot] = [spot]
+    for one in under:
+        x, y, z = ranges(one)
+        for box in place_map.boxes:
+            other = ranges(box)
+            stacked = shared(x, other[0]) > 0 and shared(y, other[1]) > 0
+            if stacked and abs(other[2][1] - z[0]) <= MARGINS.level + EPS:
+                under.append(box)
+    pile = {box.id for box in under if isinstance(box, Standing)}
+    above = [box for box in place_map.boxes if pile & carriers(place_map, box)]
+    return pile | {box.id for box in above}
+
+
+def carriers(place_map: PlaceMap, box: Standing) -> set[BoxId]:
+    """The boxes under a box, however far."""
+    x, y, z = ranges(box)
+    found: set[BoxId] = set()
+    for other in place_map.boxes:
+        a, b, c = ranges(other)
+        if shared(x, a) > 0 and shared(y, b) > 0 and c[1] <= z[0] + EPS:
+            found.add(other.id)
+    return found
+
+
 @given(places, choices, helds, st.data())
-def test_a_spot_stays_possible_when_a_box_that_does_not_carry_it_leaves(
+def test_a_spot_stays_possible_when_a_box_of_another_pile_leaves(
     place: Place, boxes: list[tuple[Held, int]], held: Held, data: st.DataObject
 ) -> None:
     """Less in the way never closes a way."""
@@ -151,8 +177,9 @@ def test_a_spot_stays_possible_when_a_box_that_does_not_carry_it_leaves(
     if not (spots and place_map.boxes):
         return
     spot = data.draw(st.sampled_from(spots))
+    pile = pile_under(place_map, spot)
     for box in place_map.boxes:
-        if box.id not in spot.carried_by:
+        if box.id not in pile:
             assert can_stand(place_map.without_box(box.id), held, spot)
 
 
@@ -255,3 +282,45 @@ def test_an_envelope_holds_the_solid_that_it_was_made_from() -> None:
     found = (envelope.reach, envelope.right, envelope.left, envelope.low, envelope.high)
     expected = (-0.015, -0.14, 0.16, 0.0, 0.2)
     assert all(math.isclose(a, b, abs_tol=1e-12) for a, b in zip(found, expected, strict=True))
+
+
+def stands_behind(step: float) -> bool:
+    """Whether a box can be pushed to the back over one of 0.1 m, whose neighbour is higher."""
+    front = Standing(BoxId("front"), (0.0, -0.24, 0.0), (0.1, 0.48, 0.1 + step))
+    back = Standing(BoxId("back"), (0.12, -0.24, 0.0), (0.32, 0.48, 0.1))
+    spot = Spot(SMALL.id, (0.14, -0.15, 0.1), (0.3, 0.3, 0.2))
+    place_map = PlaceMap(SMALL, (front, back))
+    assert (objections(place_map, Held(spot.size), spot) == []) == (step <= 0.007)
+    return can_stand(place_map, Held(spot.size), spot)
+
+
+def test_a_box_is_pushed_in_over_what_is_little_higher() -> None:
+    """7 mm are passed over by 8 mm; 8 mm would be too close."""
+    assert stands_behind(0.0069)
+    assert not stands_behind(0.0075)
+
+
+def below_the_roof(top: float) -> bool:
+    """Whether a box goes in with a tool that reaches so high above the floor [m]."""
+    tool = (Envelope(reach=-0.02, right=-0.1, left=0.1, low=0.01, high=top),)
+    held = Held((0.2, 0.2, 0.2), tool=tool)
+    return any(spot.depth > 0.1 for spot in find_spots(PlaceMap(SMALL), held))
+
+
+def test_the_tool_is_lifted_below_the_roof_as_the_box_is() -> None:
+    """15 mm of lift and 5 mm of room."""
+    assert below_the_roof(0.4299)
+    assert not below_the_roof(0.4301)
+
+
+def test_the_tool_passes_below_and_beside_boxes_with_room() -> None:
+    """A box beside the way of the tool keeps it outside, unless it is 10 mm away."""
+
+    def stands_deep(edge: float) -> bool:
+        side = Standing(BoxId("side"), (0.0, edge, 0.0), (0.1, 0.48 / 2 - edge, 0.2))
+        held = Held((0.2, 0.1, 0.1), tool=(FLUSH,))
+        spot = Spot(SMALL.id, (0.2, -0.14, 0.0), held.size)
+        return can_stand(PlaceMap(SMALL, (side,)), held, spot)
+
+    assert stands_deep(0.0701)
+    assert not stands_deep(0.0699)

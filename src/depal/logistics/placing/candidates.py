@@ -3,7 +3,9 @@
 from typing import NamedTuple
 
 from depal.geometry import loop_kernel
-from depal.logistics.placing.feasible import EPS, NOWHERE, Array, Load, Rules, Scene, deepest, lands
+from depal.logistics.placing.bearing import bears
+from depal.logistics.placing.feasible import NOWHERE, deepest, lands
+from depal.logistics.placing.scene import EPS, Array, Load, Rules, Scene
 
 SIDES_PER_BOX = 7
 """Ways to stand beside or upon one box."""
@@ -22,19 +24,27 @@ SKIP = 1e9
 
 
 class Weights(NamedTuple):
-    """What makes a spot good; the smallest sum is best. Found by `measure_fill`.
+    """What makes a spot good; the smallest sum is best. Chosen with `measure_fill`.
 
     Attributes:
         lost: per share of the place's volume that nothing can use any more.
         shallow: per metre between the outward face and the back.
         high: per metre above the floor.
-        sliver: gaps below this are lost [m].
+        front: for what is lost in front of the box, as a share of the same behind it.
+        narrow: gaps narrower than this are of no use [m].
+        wide: gaps wider than this are of full use [m].
+        flat: room lower than this is of no use [m].
+        tall: room higher than this is of full use [m].
     """
 
-    lost: float = 1.0
-    shallow: float = 0.3
+    lost: float = 1.00
+    shallow: float = 0.50
     high: float = 0.03
-    sliver: float = 0.20
+    front: float = 0.60
+    narrow: float = 0.10
+    wide: float = 0.35
+    flat: float = 0.10
+    tall: float = 0.15
 
 
 @loop_kernel
@@ -108,6 +118,12 @@ def gap_beside(scene: Scene, load: Load, x: float, y: float, z: float, sign: flo
 
 
 @loop_kernel
+def useless(gap: float, none: float, every: float) -> float:
+    """The share of boxes that do not fit into a gap: all below `none`, none above `every`."""
+    return min(max((every - gap) / (every - none), 0.0), 1.0)
+
+
+@loop_kernel
 def cost(scene: Scene, load: Load, weights: Weights, x: float, y: float, z: float) -> float:
     """How much a spot spoils: room lost behind, below, beside and above it, and height."""
     d, w, h = load.depth, load.width, load.height
@@ -118,13 +134,25 @@ def cost(scene: Scene, load: Load, weights: Weights, x: float, y: float, z: floa
     beside = 0.0
     for sign in (-1.0, 1.0):
         gap = gap_beside(scene, load, x, y, z, sign)
-        if gap < weights.sliver:
-            beside += gap * d * h
+        beside += gap * d * h * useless(gap, weights.narrow, weights.wide)
     room = scene.height - top
-    over = room * d * w if room < weights.sliver else 0.0
+    over = room * d * w * useless(room, weights.flat, weights.tall)
+    front = x * w * h * useless(x, weights.narrow, weights.wide)
     volume = scene.depth * scene.width * scene.height
-    lost = (behind + below + beside + over) / volume
+    lost = (behind + below + beside + over + weights.front * front) / volume
     return weights.lost * lost + weights.shallow * (scene.depth - far) + weights.high * z
+
+
+@loop_kernel
+def is_repeated(scene: Scene, level: int) -> bool:
+    """Whether the floor or the top of a box before this one is as high."""
+    z = scene.high[level, 2]
+    if z <= EPS:
+        return True
+    for other in range(level):  # noqa: SIM110 - a kernel has no generators
+        if abs(scene.high[other, 2] - z) <= EPS:
+            return True
+    return False
 
 
 @loop_kernel
@@ -144,12 +172,9 @@ def list_spots(scene: Scene, load: Load, rules: Rules, weights: Weights, out: Ar
     """
     n, found = len(scene.low), 0
     for level in range(-1, n):
-        z = 0.0 if level < 0 else scene.high[level, 2]
-        seen = level >= 0 and z <= EPS
-        for other in range(max(level, 0)):
-            seen = seen or abs(scene.high[other, 2] - z) <= EPS
-        if seen:
+        if level >= 0 and is_repeated(scene, level):
             continue
+        z = 0.0 if level < 0 else scene.high[level, 2]
         for side in range(4 + SIDES_PER_BOX * n):
             y = side_at(scene, load, rules, z, side)
             if y == SKIP:
@@ -160,6 +185,8 @@ def list_spots(scene: Scene, load: Load, rules: Rules, weights: Weights, out: Ar
             for way in range(1 + STEPS + (2 * n if level >= 0 else 0)):
                 x = depth_at(scene, load, z, near, way)
                 if x < -EPS or x > near + EPS or not lands(scene, load, rules, x, y, z):
+                    continue
+                if not bears(scene, load, rules, x, y, z):
                     continue
                 if found == len(out):
                     return found

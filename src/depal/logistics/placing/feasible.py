@@ -1,103 +1,11 @@
 """Whether a box can be pushed to a spot and stands there: the kernels."""
 
-import math
-from typing import NamedTuple
-
-import numpy as np
-import numpy.typing as npt
-
-from depal.domain import Place
 from depal.geometry import loop_kernel
-from depal.logistics.placing.values import Held, Margins, Standing
-
-Array = npt.NDArray[np.float64]
-
-EPS = 1e-6
-"""Closer than this is equal [m]."""
+from depal.logistics.placing.bearing import bears
+from depal.logistics.placing.scene import EPS, Load, Rules, Scene
 
 NOWHERE = -1.0
 """A depth for what cannot be pushed in at all."""
-
-
-class Scene(NamedTuple):
-    """A compartment and its boxes as arrays.
-
-    Attributes:
-        low: (n, 3) smallest coordinates of each box [m].
-        high: (n, 3) greatest ones [m].
-        mass: (n,) [kg]; not a number where unknown.
-        depth: of the compartment [m].
-        width: of its opening [m].
-        height: its clear height [m].
-        reach: how deep behind the opening an outward face may be [m].
-    """
-
-    low: Array
-    high: Array
-    mass: Array
-    depth: float
-    width: float
-    height: float
-    reach: float
-
-
-class Load(NamedTuple):
-    """The held box as arrays.
-
-    Attributes:
-        depth: of the box along the way in [m].
-        width: [m].
-        height: [m].
-        mass: [kg]; not a number where unknown.
-        tool: (m, 5) reach, right, left, low, high of what comes in with it [m].
-    """
-
-    depth: float
-    width: float
-    height: float
-    mass: float
-    tool: Array
-
-
-class Rules(NamedTuple):
-    """`Margins` for the kernels."""
-
-    clearance: float
-    lift: float
-    skim: float
-    above: float
-    level: float
-    support: float
-    heavier: float
-
-
-def scene_of(place: Place, boxes: tuple[Standing, ...], max_depth: float) -> Scene:
-    """A compartment and what stands in it, for the kernels."""
-    low = np.array([box.corner for box in boxes], dtype=np.float64).reshape(-1, 3)
-    size = np.array([box.size for box in boxes], dtype=np.float64).reshape(-1, 3)
-    mass = np.array([math.nan if box.mass is None else box.mass for box in boxes], dtype=np.float64)
-    width, height = place.opening
-    return Scene(low, low + size, mass, place.depth, width, height, max_depth)
-
-
-def load_of(held: Held) -> Load:
-    """A held box, for the kernels."""
-    rows = [(part.reach, part.right, part.left, part.low, part.high) for part in held.tool]
-    tool = np.array(rows, dtype=np.float64).reshape(-1, 5)
-    return Load(*held.size, math.nan if held.mass is None else held.mass, tool)
-
-
-def rules_of(margins: Margins) -> Rules:
-    """Margins, for the kernels."""
-    return Rules(
-        clearance=margins.clearance,
-        lift=margins.lift,
-        skim=margins.skim,
-        above=margins.above,
-        level=margins.level,
-        support=margins.support,
-        heavier=margins.heavier,
-    )
 
 
 @loop_kernel
@@ -191,4 +99,5 @@ def stands(scene: Scene, load: Load, rules: Rules, x: float, y: float, z: float)
         x >= -EPS
         and x <= deepest(scene, load, rules, y, z) + EPS
         and lands(scene, load, rules, x, y, z)
+        and bears(scene, load, rules, x, y, z)
     )

@@ -6,8 +6,9 @@ from collections.abc import Callable, Iterable
 import numpy as np
 
 from depal.logistics.placing.candidates import CAPACITY, Weights, list_spots
-from depal.logistics.placing.feasible import Array, load_of, rules_of, scene_of, stands
+from depal.logistics.placing.feasible import stands
 from depal.logistics.placing.place_map import PlaceMap
+from depal.logistics.placing.scene import Array, load_of, rules_of, scene_of
 from depal.logistics.placing.values import MARGINS, Held, Margins, Spot
 
 Reachable = Callable[[Spot], bool]
