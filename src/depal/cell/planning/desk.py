@@ -16,10 +16,10 @@ from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Joints, Perceived, PlaceId, Recognition, StorageKind
 from depal.geometry import OrientedBox
-from depal.logistics.placing import MARGINS, Books, find_spots
+from depal.logistics.placing import MARGINS, Books, Spot, find_spots
 from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding, grasps
-from depal.motion.moves import OPEN, Kind, Mover, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, Berth, Kind, Mover, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort
 from depal.ports import Trajectory
 
@@ -273,29 +273,22 @@ class Desk:
         cell_from_place = layout.places[place].cell_from_place
         scene = self._around.scene(self._work.pile, without=load.box)
         reason = "no room"
+
+        def berth_at(spot: Spot) -> Berth:
+            target = target_of(cell_from_place, spot, turn)
+            return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
+
         spots = find_spots(
             self.books.at(place),
             held,
             limit=SPOTS,
-            reachable=lambda spot: self._mover.could_put(
-                load.start, load.grasp, load.size, target_of(cell_from_place, spot, turn), scene,
-                MARGINS.lift,
-            ),
+            reachable=lambda spot: not self._mover.why_no_put(load.start, berth_at(spot), scene),
         )
         for spot in spots:
-            target = target_of(cell_from_place, spot, turn)
+            berth = berth_at(spot)
             put = self._measured(
-                lambda target=target, spot=spot: self._mover.put(
-                    load.lead,
-                    load.start,
-                    load.grasp,
-                    load.size,
-                    cell_from_place,
-                    target,
-                    spot.depth + held.size[0],
-                    scene,
-                    MARGINS.lift,
-                    self._effort(),
+                lambda berth=berth: self._mover.put(
+                    load.lead, load.start, berth, scene, self._effort()
                 )
             )
             if isinstance(put, NoMotion):
@@ -308,7 +301,7 @@ class Desk:
             if motion is None or descent is None:
                 reason = "the suction would not hold it"
                 continue
-            return CarryPlan(load, place, spot, target, motion, descent, put.retreat.path)
+            return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
         return reason
 
     def _is_fixed(self, place: PlaceId) -> bool:
