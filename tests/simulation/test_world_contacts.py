@@ -80,7 +80,8 @@ def test_an_arm_in_the_free_touches_nothing() -> None:
 def test_a_box_shaken_off_is_lost_by_acceleration() -> None:
     """Nothing touched it."""
     world = hanging(FRONT, (0.3, 0.3, 0.3), 9.0)
-    world.begin(shifted(world, (0.0, 0.12, 0.0), 0.15))
+    start = world.joints()
+    world.begin(point_to_point(start, (start[0] + 0.1, *start[1:]), 0.15))
     world.advance(world.now + 2.0)
     (loss,) = world.losses.lost
     assert (loss.box, loss.cause) == (0, Cause.ACCELERATION)

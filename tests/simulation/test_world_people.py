@@ -42,6 +42,14 @@ def test_the_referee_knows_where_every_box_is() -> None:
     assert cell.referee.summary().boxes == {"elsewhere": 1, "trolley_1/level_1": 1}
 
 
+def test_a_box_on_top_of_a_trolley_is_in_none_of_its_places() -> None:
+    """Above the clear height of the highest level."""
+    cell = a_cell()
+    place = CELL.storages[0].places[1]
+    cell.world.place_box(1, place.cell_from_place @ Pose((0.3, 0.0, place.opening[1] + 0.01)))
+    assert cell.referee.where(1) == "elsewhere"
+
+
 def test_an_exchange_takes_the_boxes_away_and_brings_an_empty_trolley() -> None:
     """The bay is empty for a while, and its panels with it."""
     cell = a_cell()

@@ -13,15 +13,14 @@ from depal.geometry import OrientedBox, Vector3
 from depal.ports import Guard
 from depal.simulation import SimulatedCell, build
 
-MASS = 5.0
 CELL = layout()
 TALL = 1.402  # so that a box on it stands before the tool at REACHING
 
 
-def a_cell() -> SimulatedCell:
+def a_cell(mass: float = 5.0) -> SimulatedCell:
     """A box on a board, its front 0.1 m before the cups."""
     board = OrientedBox.upright((2.22, 0.0, 0.144 + TALL - 0.02), (0.3, 0.4, 0.04))
-    box = ((0.45, 0.665, TALL), (0.3, 0.3, 0.3), MASS)
+    box = ((0.45, 0.665, TALL), (0.3, 0.3, 0.3), mass)
     reaching = replace(CELL.robot, parked=REACHING)
     return build(replace(CELL, robot=reaching, fixtures=(board,)), delivery(box), seed=3)
 
@@ -36,7 +35,7 @@ async def go(
 
 async def pick_and_place(cell: SimulatedCell) -> tuple[list[float], str | None]:
     """Forward, suck, lift, back, forward again, down until the load says so, release, back."""
-    loads = []
+    loads, mass = [], cell.world.cases[0].mass
     await go(cell, (0.1, 0.0, 0.0), 0.5)
     assert await cell.gripper.suck(tuple((FRONT, cup) for cup in ALL))
     await go(cell, (0.0, 0.0, 0.015), 0.5)
@@ -46,7 +45,7 @@ async def pick_and_place(cell: SimulatedCell) -> tuple[list[float], str | None]:
     assert cell.referee.where(0) == "hand"
     await go(cell, (0.15, 0.0, 0.0), 0.8)
     landed = await go(
-        cell, (0, 0, -0.03), 1.5, lambda: "landed" if cell.arm.load() < MASS / 2 else None
+        cell, (0, 0, -0.03), 1.5, lambda: "landed" if cell.arm.load() < mass / 2 else None
     )
     await cell.gripper.release()
     loads.append(cell.arm.load())
@@ -56,13 +55,14 @@ async def pick_and_place(cell: SimulatedCell) -> tuple[list[float], str | None]:
     return loads, landed
 
 
-def test_a_box_is_taken_weighed_and_set_down_without_collision_or_loss() -> None:
-    """It stands where it stood, to a few millimetres."""
-    cell = a_cell()
+@pytest.mark.parametrize("mass", [1.0, 5.0, 12.0])
+def test_a_box_is_taken_weighed_and_set_down_without_collision_or_loss(mass: float) -> None:
+    """It stands where it stood, to a few millimetres; its own weight is no collision."""
+    cell = a_cell(mass)
     before = cell.world.box(0).translation
     (held, free), landed = run_simulated(pick_and_place(cell))
     summary = cell.referee.summary()
-    assert held == pytest.approx(MASS, abs=0.1)
+    assert held == pytest.approx(mass, abs=0.1)
     assert free == pytest.approx(0.0, abs=0.1)
     assert landed == "landed"
     assert summary.collisions == ()

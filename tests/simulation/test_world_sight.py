@@ -1,8 +1,10 @@
 """The sight from the truth tells what a camera could see, a little off, and no more."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from simulated_layouts import delivery, layout
+from simulated_layouts import delivery, layout, trolley
 
 from depal.domain import Delivery, Recognition
 from depal.executive.clock import LoopClock, run_simulated
@@ -59,6 +61,27 @@ def test_the_arm_hides_what_is_behind_it() -> None:
     cell.world.data.qpos[:6] = (0.0, -0.7, 0.7, 0.0, 0.0, 0.0)
     cell.world.refresh()
     assert seen(cell) == set()
+
+
+def test_what_lies_outside_the_picture_is_not_seen() -> None:
+    """A camera that looks up from the same mast sees none of it."""
+    up = Pose((0.2, -0.5, 1.3), ((0, -1, 0), (-1, 0, 0), (0, 0, 1)))
+    blind = replace(CELL, cameras=(replace(CELL.cameras[0], cell_from_camera=up),))
+    note = delivery(((0.4, 0.2, 0.0), CUBE, 5.0))
+    assert seen(build(CELL, note)) == {"b1"}
+    assert seen(build(blind, note)) == set()
+
+
+def test_a_trolley_hides_what_is_behind_it_while_it_is_there() -> None:
+    """Here it stands before the pallet."""
+    before = trolley("trolley_1", 0.0, 1.0)
+    turned = replace(before, cell_from_storage=Pose((0.6, 0.0, 0.0)))
+    cell = build(
+        replace(CELL, storages=(turned, CELL.storages[1])), delivery(((0.4, 0.2, 0.0), CUBE, 5.0))
+    )
+    assert seen(cell) == set()
+    cell.world.show_storage("trolley_1", trolley=None)
+    assert seen(cell) == {"b1"}
 
 
 def test_errors_are_small_without_bias_and_new_in_every_look() -> None:

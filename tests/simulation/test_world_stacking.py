@@ -21,6 +21,10 @@ def test_a_real_note_stacks_without_overlap_within_the_pallet(number: int) -> No
     low = np.array([case.corner for case in stack])
     high = low + np.array([case.size for case in stack])
     overlap = np.minimum(high[:, None], high[None]) - np.maximum(low[:, None], low[None])
+    resting = np.abs(low[:, None, 2] - high[None, :, 2]) < 1e-3
+    area = (np.clip(overlap[:, :, :2], 0, None).prod(axis=2) * resting).sum(axis=1)
+    share = area / (high - low)[:, :2].prod(axis=1)
+    assert (share[low[:, 2] > 0] > 0.5).all()
     depth = overlap.min(axis=2)
     np.fill_diagonal(depth, 0.0)
     assert depth.max() < 1e-3

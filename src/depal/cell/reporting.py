@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from depal.domain import BoxId
 from depal.executive import events as ev
@@ -74,14 +75,14 @@ class Journalist:
         for listener in self._heard:
             listener(last, events)
 
-    def chose(self, at: float, decision: Decision[object]) -> None:
+    def chose(self, at: float, decision: Decision[Any]) -> None:
         """A selection was made."""
         note = note_of(at, decision)
         for listener in self._chosen:
             listener(note)
 
 
-def note_of(at: float, decision: Decision[object]) -> ChoiceNote:
+def note_of(at: float, decision: Decision[Any]) -> ChoiceNote:
     """A decision as it is told."""
     lines = tuple(Line(v.box.id, v.h, v.l, v.s, v.fate.value, v.reason) for v in decision.verdicts)
     target = decision.target.id if decision.target is not None else None

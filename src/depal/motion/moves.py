@@ -324,6 +324,17 @@ class Mover:
             )
         return NoMotion(_ranked(reasons))
 
+    def could_put(
+        self, start: Array, grasp: Grasp, size: Vector3, target: Pose, scene: Scene, lift: float
+    ) -> bool:
+        """Whether the arm reaches over a spot at all: the cheap part of `put`."""
+        above = moved(target, (0.0, 0.0, lift)) @ grasp.box_from_flange
+        branches = self._branches(above, start)
+        if not len(branches):
+            return False
+        entry = self.checker(scene, ENTRY, grasp, size)
+        return any(entry.free(q) for q in branches)
+
     def _out_of_place(
         self, q: Array, inward: Vector3, depth: float, entry: Checker, clear: Checker
     ) -> Array | str:
@@ -366,7 +377,9 @@ class Mover:
         reasons: list[str] = []
         for pose in poses:
             branches = self._branches(pose, start)
-            free = [q for q in branches if not (hit := clear.why(q)) or reasons.append(hit)]
+            hits = [clear.why(q) for q in branches]
+            reasons += [hit for hit in hits if hit]
+            free = [q for q, hit in zip(branches, hits, strict=True) if not hit]
             if not len(branches):
                 reasons.append("no reach to the reader")
             if not free:

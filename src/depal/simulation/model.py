@@ -10,8 +10,6 @@ from depal.domain import CellLayout, PalletStand
 from depal.geometry import OrientedBox, Pose
 from depal.simulation.cases import Case
 from depal.simulation.parts import (
-    ARM_DAMPING,
-    ARM_STIFFNESS,
     add_arm,
     add_box,
     add_solid,
@@ -125,6 +123,7 @@ def _set_options(spec: mujoco.MjSpec) -> None:
     option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     option.tolerance = 1e-6
     option.iterations = 30
+    option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     option.enableflags |= mujoco.mjtEnableBit.mjENBL_SLEEP
     spec.compiler.autolimits = True
 
@@ -175,6 +174,3 @@ def _indexed(model: mujoco.MjModel, layout: CellLayout, cases: tuple[Case, ...])
 
 def _ints(values: list[int]) -> Ints:
     return np.array(values, dtype=np.int64)
-
-
-__all__ = ["ARM_DAMPING", "ARM_STIFFNESS", "STEP", "CellModel", "build_model", "pallet_parts"]

@@ -9,17 +9,24 @@ from depal.domain import JOINT_AXES, LINKS, Capsule, Robot, Tool
 from depal.geometry import Matrix3, OrientedBox
 from depal.simulation.cases import Case
 
-ARM_STIFFNESS = (4e6, 4e6, 4e6, 4e5, 4e5, 2e5)
+ARM_STIFFNESS = (2e6, 2e6, 1.2e6, 9e4, 9e4, 7e4)
 """Of the position servos [N m/rad]."""
 
-ARM_DAMPING = (8e4, 8e4, 5e4, 4e3, 4e3, 2e3)
-"""Of the servos, against the difference to the wanted rate [N m s/rad]."""
+ARM_DAMPING = (4e4, 4e4, 2.4e4, 2e3, 2e3, 1.5e3)
+"""Of the servos, against the difference to the wanted rate [N m s/rad].
+
+Damping times the step stays below the inertia, for a servo at its limit is not implicit any more:
+stronger ones went on striking from limit to limit.
+"""
 
 ARM_TORQUE = (2e4, 2e4, 1e4, 3e3, 3e3, 1.5e3)
 """What the servos can do at the most: an arm that runs into something stalls [N m]."""
 
-ARMATURE = (20.0, 20.0, 20.0, 3.0, 3.0, 2.0)
+ARMATURE = (20.0, 20.0, 40.0, 10.0, 10.0, 8.0)
 """Inertia of the motors behind their gears [kg m^2]."""
+
+ARM_INERTIA = (300.0, 300.0, 100.0, 12.0, 12.0, 9.0)
+"""About what each axis moves, motor included: feed-forward of the acceleration [kg m^2]."""
 
 _POINT = 1e-6
 """A capsule shorter than twice this is a sphere [m]."""

@@ -24,6 +24,7 @@ class Motion:
         path: (n,) times along the trajectory [s]; they rise slower while it is being stopped.
         positions: (n, 6) [rad].
         velocities: (n, 6) [rad/s].
+        accelerations: (n, 6) from each row to the next [rad/s^2].
     """
 
     trajectory: Trajectory
@@ -31,6 +32,7 @@ class Motion:
     path: Floats
     positions: Floats
     velocities: Floats
+    accelerations: Floats
 
     @property
     def last(self) -> int:
@@ -50,7 +52,7 @@ def motion_along(trajectory: Trajectory, first: int, period: float) -> Motion:
     """The motion that follows a trajectory from the step `first` on, steps of `period` [s]."""
     count = int(np.ceil(trajectory.duration / period - 1e-9)) + 1
     path = np.minimum(np.arange(count) * period, trajectory.duration)
-    return Motion(trajectory, first, path, *sampled(trajectory, path, np.ones(count)))
+    return _motion(trajectory, first, path, np.ones(count), period)
 
 
 def stopped(motion: Motion, step: int, period: float, limits: JointLimits) -> Motion:
@@ -67,7 +69,15 @@ def stopped(motion: Motion, step: int, period: float, limits: JointLimits) -> Mo
     inside = ahead < motion.trajectory.duration
     path = np.concatenate((motion.path[: row + 1], np.minimum(ahead, motion.trajectory.duration)))
     rate = np.concatenate((np.ones(row + 1), np.where(inside, 1 - u, 0.0)))
-    return Motion(motion.trajectory, motion.first, path, *sampled(motion.trajectory, path, rate))
+    return _motion(motion.trajectory, motion.first, path, rate, period)
+
+
+def _motion(
+    trajectory: Trajectory, first: int, path: Floats, rate: Floats, period: float
+) -> Motion:
+    positions, velocities = sampled(trajectory, path, rate)
+    accelerations = np.diff(velocities, axis=0, append=velocities[-1:]) / period
+    return Motion(trajectory, first, path, positions, velocities, accelerations)
 
 
 def sampled(trajectory: Trajectory, path: Floats, rate: Floats) -> tuple[Floats, Floats]:

@@ -7,14 +7,15 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.domain import CellLayout, Joints
+from depal.errors import DeviceError
 from depal.geometry import Pose
 from depal.ports.trajectory import Trajectory
 from depal.simulation.cases import Case
 from depal.simulation.contacts import ContactWatch
 from depal.simulation.holds import Broken
 from depal.simulation.losses import LossWatch
-from depal.simulation.model import ARM_DAMPING, ARM_STIFFNESS, STEP, build_model
-from depal.simulation.parts import BODY, SOLID
+from depal.simulation.model import STEP, build_model
+from depal.simulation.parts import ARM_DAMPING, ARM_INERTIA, ARM_STIFFNESS, BODY, SOLID
 from depal.simulation.servo import Motion, motion_along, stopped
 from depal.simulation.suction import TOUCH, SuctionState
 
@@ -34,6 +35,7 @@ LOAD_FILTER = 0.005
 """Time constant of the load cell [s]."""
 
 _STIFFNESS, _DAMPING = np.array(ARM_STIFFNESS), np.array(ARM_DAMPING)
+_INERTIA = np.array(ARM_INERTIA)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -116,8 +118,14 @@ class World:
         return self.start + self._tick * STEP
 
     def advance(self, to: float) -> None:
-        """Lets the world go on until a time [s]; a time that has passed changes nothing."""
+        """Lets the world go on until a time [s]; a time that has passed changes nothing.
+
+        Raises:
+            DeviceError: the physics broke down: no reading is worth anything any more.
+        """
         last = int((to - self.start) / STEP + 1e-6)
+        if self.data.warning[mujoco.mjtWarning.mjWARN_BADQACC].number:
+            raise DeviceError(f"the simulated physics broke down before {self.now:.3f} s")
         while self._tick < last:
             if self._quiet >= QUIET:
                 self._tick = last
@@ -218,8 +226,9 @@ class World:
         )
 
     def _step(self) -> None:
-        positions, velocities = self.wanted()
-        self.data.ctrl[:] = _STIFFNESS * positions + _DAMPING * velocities
+        row = self._motion.row(self._tick)
+        control = _STIFFNESS * self._motion.positions[row] + _DAMPING * self._motion.velocities[row]
+        self.data.ctrl[:] = control + _INERTIA * self._motion.accelerations[row]
         mujoco.mj_step(self.model.mj, self.data)
         self._tick += 1
         self.steps += 1

@@ -1,6 +1,7 @@
 """What a run is given, checked before anything moves."""
 
-from depal.cell.checking import CellFinding, Weight, check_delivery_against_cell
+from depal.cell.checking.delivery import check_delivery_against_cell
+from depal.cell.checking.findings import CellFinding, Weight
 from depal.cell.files import find_cell
 from depal.cell.workplace import Policy
 from depal.domain import CellLayout, Delivery

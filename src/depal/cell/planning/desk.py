@@ -40,6 +40,9 @@ HERE = 0.01
 AWAY = math.radians(40)
 """The view of the pallet is clear when the flange's heading is this far from the pallet's."""
 
+ASIDE = PlaceId("aside")
+"""What task files call the storage that boxes are set aside into."""
+
 SPOTS = 4
 """So many spots of one place are tried."""
 
@@ -270,7 +273,16 @@ class Desk:
         cell_from_place = layout.places[place].cell_from_place
         scene = self._around.scene(self._work.pile, without=load.box)
         reason = "no room"
-        for spot in find_spots(self.books.at(place), held, limit=SPOTS):
+        spots = find_spots(
+            self.books.at(place),
+            held,
+            limit=SPOTS,
+            reachable=lambda spot: self._mover.could_put(
+                load.start, load.grasp, load.size, target_of(cell_from_place, spot, turn), scene,
+                MARGINS.lift,
+            ),
+        )
+        for spot in spots:
             target = target_of(cell_from_place, spot, turn)
             put = self._measured(
                 lambda target=target, spot=spot: self._mover.put(
@@ -326,7 +338,14 @@ class Desk:
             self._next_start = kept.end
             return kept
         self._release_spot(box)
-        return await self.find_place(box, (place,))
+        return await self.find_place(box, self._places_named(place))
+
+    def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
+        """The place itself, or all of the storage that boxes are set aside into."""
+        if place != ASIDE:
+            return (place,)
+        storage = self._work.layout.storage(self._work.layout.aside)
+        return tuple(each.id for each in storage.places)
 
     def carry_in_hand(self, box: BoxId) -> CarryPlan:
         """The plan that brought the held box into its place."""

@@ -15,6 +15,12 @@ from depal.simulation.world import World
 PERIOD = 0.008
 """The control period [s]."""
 
+OVER = 1.05
+"""Rates at the samples of a trajectory may be this much above the limits of the axes."""
+
+BEYOND = 1e-3
+"""And positions this far outside [rad]."""
+
 NEAR = 0.02
 """A trajectory must begin this near to where the axes stand [rad]."""
 
@@ -49,7 +55,7 @@ class SimulatedArm:
 
         Raises:
             DeviceError: the arm is moving already, a safety stop is active, or the trajectory
-                begins elsewhere.
+                begins elsewhere or asks for more than the axes can do.
         """
         self._world.advance(self._clock.now())
         self._check(trajectory)
@@ -81,6 +87,24 @@ class SimulatedArm:
             raise DeviceError(
                 f"the trajectory begins {away[axis]:.3f} rad from where axis {axis + 1} stands; "
                 f"expected at most {NEAR} rad"
+            )
+
+        self._check_limits(trajectory)
+
+    def _check_limits(self, trajectory: Trajectory) -> None:
+        limits = self._world.layout.robot.limits
+        rates = np.abs(trajectory.velocities) / np.array(limits.speed)
+        if rates.max() > OVER:
+            axis = int(rates.max(axis=0).argmax())
+            raise DeviceError(
+                f"the trajectory turns axis {axis + 1} at {rates.max():.2f} times its greatest rate"
+            )
+        above = trajectory.positions - np.array(limits.upper)
+        outside = np.maximum(above, np.array(limits.lower) - trajectory.positions)
+        if outside.max() > BEYOND:
+            axis = int(outside.max(axis=0).argmax())
+            raise DeviceError(
+                f"the trajectory turns axis {axis + 1} {outside.max():.3f} rad beyond its limits"
             )
 
     async def _watch(self, motion: Motion, guard: Guard | None) -> str | None:
