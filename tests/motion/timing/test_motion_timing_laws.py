@@ -1,5 +1,7 @@
 """Laws of every trajectory: limits, ends, scaling, rounded corners."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -93,7 +95,7 @@ def test_a_rounded_corner_stays_near_its_corner(seed: int, rounding: float) -> N
     assert path is not None
     assert path.deviation <= rounding
     along = np.linspace(0.0, 1.0, 300)[:, None]
-    pairs = zip(points[:-1], points[1:], strict=True)
+    pairs = itertools.pairwise(points)
     lines = flange_points(np.concatenate([a + along * (b - a) for a, b in pairs]))
     flange = flange_points(path.at(np.linspace(0.0, float(path.lengths.sum()), 150)))
     start, step = lines[:-1], np.diff(lines, axis=0)

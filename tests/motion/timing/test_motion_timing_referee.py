@@ -1,5 +1,6 @@
 """toppra times the same paths: a referee who shares no line with the sweep."""
 
+import itertools
 import warnings
 from collections.abc import Callable
 
@@ -58,9 +59,7 @@ class _Pieces(AbstractGeometricPath):
 def referee(path: Path, *extra: object, points: int = 60) -> float:
     """The duration that toppra finds [s]."""
     starts = np.concatenate(((0.0,), np.cumsum(path.lengths)))
-    grid = np.concatenate(
-        [np.linspace(a, b, points) for a, b in zip(starts[:-1], starts[1:], strict=True)]
-    )
+    grid = np.concatenate([np.linspace(a, b, points) for a, b in itertools.pairwise(starts)])
     grid = grid[np.concatenate(((True,), np.diff(grid) > 1e-9))]
     limits = [
         constraint.JointVelocityConstraint(np.stack((-SPEED, SPEED), axis=1)),

@@ -24,7 +24,6 @@ def swing(grasp: Grasp) -> Floats:
     return np.stack((start, end))
 
 
-
 @settings(max_examples=25)
 @given(seeds)
 def test_a_held_box_never_asks_more_of_the_cups_than_they_are_counted_on(seed: int) -> None:
