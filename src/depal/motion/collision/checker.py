@@ -110,6 +110,11 @@ class Checker:
         row = int(first_free_along(self.case, path))
         return None if row == FREE else row
 
+    def first_hit(self, path: Array) -> int | None:
+        """The first row of a path (n, 6) that touches something; None where none does."""
+        row = int(first_hit_along(self.case, path)[0])
+        return None if row == FREE else row
+
     def edge_free(self, start: Array, end: Array, step: float = STEP) -> bool:
         """Whether the straight joint line between two configurations is free."""
         return bool(edge_is_free(self.case, start, end, self.reach, step))

@@ -76,16 +76,12 @@ class Reach:
         row = clear.first_free(path[least:])
         if row is None:
             return clear.why(path[-1])
-        end = least + row
-        if hit := near.why_along(path[: end + 1]):
-            return hit
-        for further in range(end, len(path), STRIDE):
-            if not clear.free(path[further]) or not near.path_free(path[end : further + 1]):
-                break
-            if self.free.is_open(clear, path[further]):
-                end = further
-                break
-        return path[: end + 1].copy()
+        blocked = near.first_hit(path)
+        last = len(path) if blocked is None else blocked
+        for end in range(least + row, last, STRIDE):
+            if clear.free(path[end]) and self.free.is_open(clear, path[end]):
+                return path[: end + 1].copy()
+        return "no room to draw the arm in" if blocked is None else near.why(path[blocked])
 
 
 def scaled(vector: Vector3, factor: float) -> Vector3:
