@@ -11,8 +11,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
-from depal.geometry import kernel
+from depal.geometry import kernel, loop_kernel
 from depal.motion.kinematics import link_frames
 from depal.motion.timing.legs import Floats, Leg, Path, hermite, piece_end, piece_rate
 
@@ -33,6 +34,9 @@ PITCH = 0.06
 
 CHECKS = 0.01
 """A rounded corner is checked at points this far apart, in time at full speed [s]."""
+
+ROOM = 0.49
+"""A corner takes at most this share of what lies between it and the next one."""
 
 TRIES = 7
 """So often a rounded corner is halved before the arm stops in it."""
@@ -102,10 +106,12 @@ class Smoother:
         )
 
     def _pieces(self, leg: Leg, number: int) -> list[_Piece]:
-        points, spans = _distinct(leg.points, self.speed, PITCH if leg.curve else 0.0)
-        count = len(spans)
+        rows, spans = np.empty(len(leg.points), np.int64), np.empty(len(leg.points))
+        pitch = PITCH if leg.curve else 0.0
+        count = _distinct(leg.points, self.speed, pitch, rows, spans) - 1
         if not count:
             return []
+        points, spans = leg.points[rows[: count + 1]], spans[:count]
         if leg.curve and count > 1:
             at = np.concatenate(((0.0,), np.cumsum(spans)))
             rates = spline_rates(at, points)
@@ -117,7 +123,7 @@ class Smoother:
                 hermite(points[k], left[k], points[k + 1], right[k], float(spans[k])),
                 float(spans[k]),
                 number,
-                room=float(spans[k]) / 2,
+                room=ROOM * float(spans[k]),
                 corner=not leg.curve or k + 1 == count,
             )
             for k in range(count)
@@ -190,61 +196,66 @@ def _speeds(pieces: list[_Piece], legs: Sequence[Leg]) -> Floats:
     return own
 
 
-@kernel
-def _distinct(points: Floats, speed: Floats, pitch: float) -> tuple[Floats, Floats]:
-    """Points that differ, thinned to a pitch, and the times between them at full speed [s]."""
-    n = len(points)
-    kept, spans = np.empty((n, 6)), np.empty(max(n - 1, 0))
-    kept[0] = points[0]
-    count, since = 1, 0.0
+@loop_kernel
+def _distinct(
+    points: Floats, speed: Floats, pitch: float, kept: npt.NDArray[np.int64], spans: Floats
+) -> int:
+    """Which points to keep: all that differ, thinned to a pitch, the last one always.
+
+    Args:
+        points: (n, 6) [rad].
+        speed: (6,) [rad/s].
+        pitch: in time at full speed [s].
+        kept: (n,) receives the rows.
+        spans: (n,) receives the times between them at full speed [s].
+
+    Returns:
+        How many are kept.
+    """
+    n, count, since = len(points), 1, 0.0
+    kept[0] = 0
     for k in range(1, n):
-        step = 0.0
-        span = 0.0
+        step, span, last = 0.0, 0.0, kept[count - 1]
         for axis in range(6):
             step = max(step, abs(points[k, axis] - points[k - 1, axis]) / speed[axis])
-            span = max(span, abs(points[k, axis] - kept[count - 1, axis]) / speed[axis])
+            span = max(span, abs(points[k, axis] - points[last, axis]) / speed[axis])
         since += step
-        if k < n - 1 and since < pitch:
+        if span < SAME or (k < n - 1 and since < pitch):
             continue
-        if span < SAME:
-            continue
-        kept[count], spans[count - 1] = points[k], span
+        kept[count], spans[count - 1] = k, span
         count += 1
         since = 0.0
-    return kept[:count], spans[: count - 1]
+    return count
 
 
 @kernel
 def spline_rates(at: Floats, points: Floats) -> Floats:
-    """The rates of the cubic spline through points, (n, 6).
+    """The rates of the cubic spline through three points or more, (n, 6).
 
     Twice continuously differentiable; at the ends its rate is that of the parabola through the
     last three points.
     """
     n = len(at)
-    lower, middle, upper = np.zeros(n), np.ones(n), np.zeros(n)
-    rates = np.empty((n, 6))
-    for end in range(2):
-        a, b, c = (0, 1, 2) if end == 0 else (n - 1, n - 2, n - 3)
-        if n == 2:  # noqa: PLR2004 - a line
-            rates[a] = (points[b] - points[a]) / (at[b] - at[a])
-            continue
-        h, g = at[b] - at[a], at[c] - at[b]
-        near, far = (points[b] - points[a]) / h, (points[c] - points[b]) / g
-        rates[a] = near + (near - far) * (h / (h + g))
-    for k in range(1, n - 1):
-        h, g = at[k] - at[k - 1], at[k + 1] - at[k]
-        lower[k], middle[k], upper[k] = g, 2 * (h + g), h
-        before, after = (points[k] - points[k - 1]) / h, (points[k + 1] - points[k]) / g
-        rates[k] = 3 * (g * before + h * after)
-    for k in range(1, n):
-        factor = lower[k] / middle[k - 1]
-        middle[k] -= factor * upper[k - 1]
-        rates[k] -= factor * rates[k - 1]
-    rates[n - 1] /= middle[n - 1]
-    for back in range(1, n):
-        k = n - 1 - back
-        rates[k] = (rates[k] - upper[k] * rates[k + 1]) / middle[k]
+    middle, upper, rates = np.ones(n), np.zeros(n), np.empty((n, 6))
+    for axis in range(6):
+        for k in range(n):
+            a = k - 1 if 0 < k < n - 1 else (0 if k == 0 else n - 3)
+            h, g = at[a + 1] - at[a], at[a + 2] - at[a + 1]
+            before = (points[a + 1, axis] - points[a, axis]) / h
+            after = (points[a + 2, axis] - points[a + 1, axis]) / g
+            if k == 0:
+                rates[k, axis] = before + (before - after) * h / (h + g)
+                continue
+            if k == n - 1:
+                rates[k, axis] = after + (after - before) * g / (h + g)
+                continue
+            factor = g / middle[k - 1]
+            upper[k] = h
+            middle[k] = 2 * (h + g) - factor * upper[k - 1]
+            rates[k, axis] = 3 * (g * before + h * after) - factor * rates[k - 1, axis]
+        for back in range(1, n):
+            k = n - 1 - back
+            rates[k, axis] = (rates[k, axis] - upper[k] * rates[k + 1, axis]) / middle[k]
     return rates
 
 

@@ -79,14 +79,19 @@ def piece_at(piece: Floats, u: float, q: Floats, q1: Floats, q2: Floats) -> None
 @kernel
 def piece_end(piece: Floats, u: float) -> Floats:
     """The value of a piece at a parameter since its start, (6,) [rad]."""
-    out: Floats = piece[0] + u * (piece[1] + u * (piece[2] + u * piece[3]))
+    out = np.empty(6)
+    for axis in range(6):
+        c2, c3 = piece[2, axis], piece[3, axis]
+        out[axis] = piece[0, axis] + u * (piece[1, axis] + u * (c2 + u * c3))
     return out
 
 
 @kernel
 def piece_rate(piece: Floats, u: float) -> Floats:
     """The derivative of a piece at a parameter since its start, (6,) [rad/s]."""
-    out: Floats = piece[1] + u * (2 * piece[2] + 3 * u * piece[3])
+    out = np.empty(6)
+    for axis in range(6):
+        out[axis] = piece[1, axis] + u * (2 * piece[2, axis] + 3 * u * piece[3, axis])
     return out
 
 
@@ -94,8 +99,9 @@ def piece_rate(piece: Floats, u: float) -> Floats:
 def hermite(p0: Floats, t0: Floats, p1: Floats, t1: Floats, length: float) -> Floats:
     """The cubic with these ends and end rates, (4, 6)."""
     out = np.empty((4, 6))
-    mean = (p1 - p0) / length
-    out[0], out[1] = p0, t0
-    out[2] = (3 * mean - 2 * t0 - t1) / length
-    out[3] = (t0 + t1 - 2 * mean) / (length * length)
+    for axis in range(6):
+        mean = (p1[axis] - p0[axis]) / length
+        out[0, axis], out[1, axis] = p0[axis], t0[axis]
+        out[2, axis] = (3 * mean - 2 * t0[axis] - t1[axis]) / length
+        out[3, axis] = (t0[axis] + t1[axis] - 2 * mean) / (length * length)
     return out

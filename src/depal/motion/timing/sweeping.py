@@ -181,17 +181,26 @@ def sweep(course: Course, limits: Limits, load: Load) -> tuple[bool, Floats]:
     scratch, frames, ends = np.zeros((16, 6)), np.empty((7, 3, 4)), np.empty((2, 3))
     for i in range(n):
         piece, step = course.pieces[course.piece[i]], course.step[i]
-        start, speed = course.start[i], course.speed[i]
-        here, there = rows[i, :width], rows[i, width : 2 * width]
-        first = rows_at(piece, start, speed, limits, load, here, scratch, frames)
-        last = rows_at(piece, start + step, speed, limits, load, there, scratch, frames)
-        if first < 0.0 or last < 0.0:
-            return False, most
-        most[i], most[i + 1] = min(most[i], first), min(most[i + 1], last)
+        for end in range(2):
+            x = rows_at(
+                piece,
+                course.start[i] + end * step,
+                course.speed[i],
+                limits,
+                load,
+                rows[i, end * width : (end + 1) * width],
+                scratch,
+                frames,
+            )
+            if x < 0.0:
+                return False, most
+            most[i + end] = min(most[i + end], x)
+        there = rows[i, width : 2 * width]
         for k in range(width):  # at the interval's end x is x + 2 step u
             there[k, 0] += 2 * step * there[k, 1]
-        rows[i, 2 * width] = np.array([2 * step, 1.0, 0.0])
-        rows[i, 2 * width + 1] = np.array([-2 * step, -1.0, 0.0])
+        rows[i, 2 * width, 0], rows[i, 2 * width, 1] = 2 * step, 1.0
+        low = 2 * width + 1
+        rows[i, low, 0], rows[i, low, 1], rows[i, low, 2] = -2 * step, -1.0, 0.0
     for i in range(n + 1):
         if course.rest[i]:
             most[i] = 0.0
@@ -199,11 +208,11 @@ def sweep(course: Course, limits: Limits, load: Load) -> tuple[bool, Floats]:
         i = n - 1 - back
         rows[i, 2 * width, 2] = most[i + 1]
         most[i] = min(most[i], _greatest_x(rows[i], most[i], ends))
-    x = np.zeros(n + 1)
+    found = np.zeros(n + 1)
     for i in range(n):
-        _range_of_u(rows[i], x[i], ends)
-        x[i + 1] = min(max(x[i] + 2 * course.step[i] * ends[1, 0], 0.0), most[i + 1])
-    return True, x
+        _range_of_u(rows[i], found[i], ends)
+        found[i + 1] = min(max(found[i] + 2 * course.step[i] * ends[1, 0], 0.0), most[i + 1])
+    return True, found
 
 
 @kernel
@@ -233,19 +242,13 @@ def sampled(course: Course, x: Floats, period: float) -> tuple[Floats, Floats, F
     for i in range(n):
         span, speed = at[i + 1] - at[i], math.sqrt(x[i])
         u = (x[i + 1] - x[i]) / (2 * course.step[i])
-        for k in range(counts[i]):
+        for k in range(counts[i] + (1 if i == n - 1 else 0)):
             t = span * k / counts[i]
-            _put(course, i, course.start[i] + t * (speed + u * t / 2), speed + u * t, scratch)
-            times[row], points[row], rates[row] = at[i] + t, scratch[0], scratch[1]
+            s, fast = course.start[i] + t * (speed + u * t / 2), max(speed + u * t, 0.0)
+            piece_at(course.pieces[course.piece[i]], s, scratch[0], scratch[1], scratch[2])
+            times[row] = at[i] + t
+            for axis in range(6):
+                points[row, axis], rates[row, axis] = scratch[0, axis], scratch[1, axis] * fast
             row += 1
-    _put(course, n - 1, course.start[n - 1] + course.step[n - 1], math.sqrt(x[n]), scratch)
-    times[row], points[row], rates[row] = at[n], scratch[0], scratch[1]
+    rates[m - 1] = 0.0
     return times, points, rates, at
-
-
-@kernel
-def _put(course: Course, i: int, s: float, speed: float, out: Floats) -> None:
-    """The configuration and its rate at a parameter."""
-    piece_at(course.pieces[course.piece[i]], s, out[0], out[1], out[2])
-    for axis in range(6):
-        out[1, axis] *= speed

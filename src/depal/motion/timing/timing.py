@@ -1,6 +1,5 @@
 """When the arm is where: the fastest trajectory along a path that breaks no limit."""
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -13,11 +12,14 @@ from depal.motion.timing.loads import NOTHING, load_of
 from depal.motion.timing.sweeping import Course, Limits, sampled, sweep
 from depal.ports import Trajectory
 
-INTERVALS = 90
+INTERVALS = 120
 """About so many intervals a path is cut into."""
 
 LEAST = 3
-"""No piece is cut into fewer, and one beside a stop into twice as many."""
+"""No piece is cut into fewer; one beside a stop, or a tight turn, into twice as many."""
+
+TIGHT = 0.3
+"""A piece is a tight turn when some axis changes its rate by this share of its speed."""
 
 PERIOD = 0.02
 """Samples of a trajectory lie no further apart, at full speed [s]."""
@@ -64,7 +66,7 @@ def time_smooth(
     speed: float = 1.0,
 ) -> Trajectory | None:
     """The fastest trajectory along a path; see `time_path`."""
-    course = _course(path)
+    course = _course(path, np.array(robot.limits.speed))
     limits = Limits(_dims(robot), np.array(robot.limits.speed), np.array(robot.limits.acceleration))
     holds, x = sweep(course, limits, NOTHING if held is None else load_of(held))
     if not holds:
@@ -72,6 +74,7 @@ def time_smooth(
     times, points, rates, at = sampled(course, x, PERIOD)
     grid = np.concatenate(((0.0,), np.cumsum(course.step)))
     marks = np.interp(path.marks, grid, at)
+    marks[-1] = at[-1]
     return Trajectory(times / speed, points, rates * speed, _allowances(legs, marks / speed))
 
 
@@ -90,14 +93,14 @@ def _dims(robot: Robot) -> Floats:
     return np.array([g.a1, g.a2, g.b, g.c1, g.c2, g.c3, g.c4])
 
 
-def _course(path: Path) -> Course:
+def _course(path: Path, speed: Floats) -> Course:
     """A path cut into intervals: evenly, but none of its pieces into too few."""
     total = float(path.lengths.sum())
-    beside = path.stops[:-1] | path.stops[1:]
-    counts = [
-        max(LEAST * (2 if stop else 1), math.ceil(INTERVALS * length / total))
-        for length, stop in zip(path.lengths.tolist(), beside.tolist(), strict=True)
-    ]
+    length = path.lengths[:, None]
+    turn = np.abs(length * (2 * path.pieces[:, 2] + 3 * length * path.pieces[:, 3]))
+    closely = path.stops[:-1] | path.stops[1:] | ((turn / speed).max(axis=1) > TIGHT)
+    even = np.ceil(INTERVALS * path.lengths / total).astype(np.int64)
+    counts = np.maximum(even, np.where(closely, 2 * LEAST, LEAST))
     rows = np.repeat(np.arange(len(counts), dtype=np.int64), counts)
     first = np.repeat(np.cumsum(counts) - counts, counts)
     step = (path.lengths / counts)[rows]
