@@ -8,7 +8,6 @@ from itertools import pairwise
 import numpy as np
 import numpy.typing as npt
 import pytest
-from referees import Referee
 
 from depal.cell.files import shipped_cell
 from depal.domain import Approach, Grasp, PlaceId
@@ -19,6 +18,7 @@ from depal.motion.grasping import grasps
 from depal.motion.moves import Berth, Kind, Mover, NoMotion, Part, Pick, Put
 from depal.motion.moves.margins import CLOSE, OPEN
 from depal.motion.planning.free import Effort
+from depal.studies.bench.planning_referee import Referee
 from depal.studies.real import perceived_stack, unload_delivery
 
 Floats = npt.NDArray[np.float64]
