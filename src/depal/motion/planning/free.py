@@ -46,7 +46,7 @@ class Effort:
         seed: of the samples.
     """
 
-    iterations: int = 3000
+    iterations: int = 12000
     seed: int = 0
 
 

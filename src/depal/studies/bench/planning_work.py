@@ -107,11 +107,15 @@ class Emptying:
         return [*trolleys[first:], *trolleys[:first], *aside]
 
     def _way(self, box: Recognition, places: list[Place]) -> _Way | None:
-        """The first place that has a spot within reach for one of the grasps."""
+        """The first place that has a spot within reach for a grasp that can be had."""
         mass = self._delivery.products[box.gtin].mass
-        ways = grasps(box.shape, mass, self._layout.tool, FRONT)
-        scene = self._scene(without=box.id)
+        scene, with_box = self._scene(without=box.id), self._scene()
         near = np.array(self._layout.robot.parked)
+        ways = [
+            grasp
+            for grasp in grasps(box.shape, mass, self._layout.tool, FRONT)
+            if not self._mover.why_no_pick(near, box.shape, grasp, with_box, str(box.id))
+        ]
         for place in places:
             for grasp in ways:
                 load = Load(box.id, grasp, box.shape.size, mass, (), near)
