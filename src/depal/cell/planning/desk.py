@@ -83,6 +83,8 @@ class Desk:
         self._stopwatch = stopwatch or (lambda: 0.0)
         self._picks: dict[BoxId, PickPlan] = {}
         self._carries: dict[BoxId, CarryPlan] = {}
+        self._searching: dict[BoxId, asyncio.Event] = {}
+        self._reached: set[BoxId] = set()
         self._next_start: Joints | None = None
         self.books = Books.empty(work.layout.places.values())
         self.planned = 0
@@ -134,10 +136,18 @@ class Desk:
     def forget_pick(self, box: BoxId) -> None:
         """The box is to be planned for anew."""
         self._picks.pop(box, None)
+        self._reached.discard(box)
         self._release_spot(box)
 
     async def pick(self, box: BoxId) -> PickPlan | str:
-        """The pick of a box from where the arm stands; planned anew where the kept one is off."""
+        """The pick of a box from where the arm stands; planned anew where the kept one is off.
+
+        Where a place is being searched for the box, this waits: the way to hold it may change.
+        """
+        await asyncio.sleep(0)
+        if box in self._searching:
+            await self._searching[box].wait()
+        self._reached.add(box)
         seen = self._work.pile.get(box)
         if seen is None:
             return f"box {box} is not seen on the pallet"
@@ -226,13 +236,15 @@ class Desk:
         load = self.load_of(box)
         if load is None:
             return f"box {box} is neither held nor about to be"
-        before = self.planned
+        before, searching = self.planned, self._searching.setdefault(box, asyncio.Event())
         plan = self._first_place(load, places)
-        if isinstance(plan, str) and self._work.held is None and box in self._picks:
+        if isinstance(plan, str) and box not in self._reached and box in self._picks:
             plan = self._by_another_grasp(box, places) or plan
-        await self.charge(self.planned - before)
         if not isinstance(plan, str):
             self._keep_carry(plan)
+        await self.charge(self.planned - before)
+        searching.set()
+        del self._searching[box]
         return plan
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:

@@ -45,7 +45,7 @@ class Timing:
         held = holding if self.cone else None
         rounded = None if checker is None else checker.path_free
         timed = time_path(legs, self.layout.robot, held=held, clear=rounded, speed=self.speed)
-        if timed is not None and not np.isfinite(timed.times).all():
+        if timed is not None and not np.isfinite(timed.positions).all():
             timed = time_path(legs, self.layout.robot, held=held, speed=self.speed)
         return timed
 
