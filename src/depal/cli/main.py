@@ -11,6 +11,7 @@ from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
+from depal.cli.cell import cell
 from depal.cli.delivery import delivery
 from depal.cli.output import console
 from depal.cli.replay import replay
@@ -29,6 +30,7 @@ app = typer.Typer(
 app.add_typer(study, name="study")
 app.add_typer(bench, name="bench")
 app.add_typer(delivery, name="delivery")
+app.add_typer(cell, name="cell")
 app.add_typer(tasks, name="tasks")
 app.command()(run)
 app.command()(replay)

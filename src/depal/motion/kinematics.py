@@ -186,7 +186,7 @@ def keep_within(
         good = True
         for axis in range(6):
             value = branches[k, axis]
-            best, best_off = 0.0, 1e18
+            best, best_off = 0.0, math.inf
             for turn in range(-1, 2):
                 angle = value + 2 * math.pi * turn
                 if angle < lower[axis] - 1e-9 or angle > upper[axis] + 1e-9:
@@ -194,7 +194,7 @@ def keep_within(
                 off = abs(angle - near[axis])
                 if off < best_off:
                     best, best_off = angle, off
-            if best_off == 1e18:
+            if best_off == math.inf:
                 good = False
                 break
             out[kept, axis] = best

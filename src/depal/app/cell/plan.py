@@ -139,7 +139,7 @@ def _reader(axes: Axes, reader: ReaderMount) -> None:
         Polygon(corners, facecolor=(*CHANGED, 0.15), edgecolor=CHANGED, linewidth=0.8, zorder=5)
     )
     x, y = _flat(eye[0], eye[1])
-    write(axes, (x, y - 0.2), "reader", replace(MIDDLE, colour=CHANGED))
+    write(axes, (x, y + 0.18), "reader", replace(MIDDLE, colour=CHANGED))
 
 
 def _arm(axes: Axes, arm: Posture, scale: float) -> None:

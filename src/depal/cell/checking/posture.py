@@ -1,13 +1,13 @@
 """Where the arm's solid parts are in a posture."""
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
-from depal.domain import JOINT_AXES, Joints, Robot, Tool
-from depal.geometry import Matrix3, OrientedBox, Pose, Vector3
+from depal.domain import Joints, Robot, Tool
+from depal.geometry import OrientedBox, Pose
+from depal.motion.kinematics import Kinematics
 
 Array = npt.NDArray[np.float64]
 
@@ -58,20 +58,6 @@ def link_poses(robot: Robot, angles: Joints) -> tuple[list[Pose], Pose]:
         robot: the arm.
         angles: of the six axes [rad].
     """
-    *origins, flange_origin = robot.geometry.joint_origins
-    links = [Pose()]
-    for origin, axis, angle in zip(origins, JOINT_AXES, angles, strict=True):
-        links.append(links[-1] @ Pose(origin, about(axis, angle)))
-    return links, links[-1] @ Pose(flange_origin)
-
-
-def about(axis: Vector3, angle: float) -> Matrix3:
-    """The turn about an axis of length 1 by an angle [rad] (Rodrigues)."""
-    x, y, z = axis
-    c, s = math.cos(angle), math.sin(angle)
-    u = 1.0 - c
-    return (
-        (c + x * x * u, x * y * u - z * s, x * z * u + y * s),
-        (y * x * u + z * s, c + y * y * u, y * z * u - x * s),
-        (z * x * u - y * s, z * y * u + x * s, c + z * z * u),
-    )
+    frames = Kinematics(robot).frames(angles)
+    poses = [Pose.from_arrays(frame[:, 3], frame[:, :3]) for frame in frames]
+    return [Pose(), *poses[:-1]], poses[-1]

@@ -194,5 +194,8 @@ class CellEntry(BaseModel):
             cameras=tuple(camera.as_mount() for camera in self.camera),
             reader=self.reader.as_mount(),
             speeds=SpeedLimits(self.speeds.flange, self.speeds.straight, self.speeds.set_down),
-            fixtures=tuple(fixture.as_box() for fixture in self.fixtures),
+            fixtures=(
+                *(fixture.as_box() for fixture in self.fixtures),
+                *self.robot.as_plinth(),
+            ),
         )

@@ -11,6 +11,7 @@ from depal.cell.files.quantities import (
     THREE,
     AxisSpeed,
     Degrees,
+    Height,
     Length,
     Mass,
     Offset,
@@ -20,6 +21,7 @@ from depal.cell.files.quantities import (
 )
 from depal.cell.files.turns import radians
 from depal.domain import ArmGeometry, Capsule, JointLimits, Joints, Robot
+from depal.geometry import OrientedBox
 from depal.logistics.models import STRICT
 from depal.logistics.quantities import Text, of_length
 
@@ -37,9 +39,9 @@ class GeometryEntry(BaseModel):
     c3: Length = Field(description="length of the forearm, to the wrist's centre [m]")
     c4: Length = Field(description="from the wrist's centre to the flange [m]")
 
-    def as_geometry(self) -> ArmGeometry:
-        """The measures as the cell's own value."""
-        return ArmGeometry(self.a1, self.a2, self.b, self.c1, self.c2, self.c3, self.c4)
+    def as_geometry(self, plinth: float) -> ArmGeometry:
+        """The measures as the cell's own value, whose origin is on the floor."""
+        return ArmGeometry(self.a1, self.a2, self.b, self.c1 + plinth, self.c2, self.c3, self.c4)
 
 
 class AxisEntry(BaseModel):
@@ -86,6 +88,9 @@ class RobotEntry(BaseModel):
     axes: Annotated[
         tuple[AxisEntry, ...], LISTED, BeforeValidator(of_length(6, 6, "axis", "axes"))
     ] = Field(description="limits of the six axes, from the base", json_schema_extra=SIX)
+    plinth: Height = Field(
+        default=0.0, description="how high above the floor the arm is mounted, on a block [m]"
+    )
     payload: Mass = Field(description="what the flange may carry, tool included [kg]")
     parked: SixAngles = Field(
         description="the six angles of the arm when idle, out of the camera's view [deg]",
@@ -110,17 +115,38 @@ class RobotEntry(BaseModel):
         )
         return Robot(
             name=self.name,
-            geometry=self.geometry.as_geometry(),
+            geometry=self.geometry.as_geometry(self.plinth),
             limits=limits,
             payload=self.payload,
             link_masses=tuple(link.mass for link in self.links),
             shapes=tuple(
-                Capsule(number, three(shape.start), three(shape.end), shape.radius)
+                Capsule(
+                    number,
+                    self._raised(number, shape.start),
+                    self._raised(number, shape.end),
+                    shape.radius,
+                )
                 for number, link in enumerate(self.links)
                 for shape in link.shapes
             ),
             parked=_six([radians(angle) for angle in self.parked]),
         )
+
+    def as_plinth(self) -> tuple[OrientedBox, ...]:
+        """The block below the base, as long and as wide as the base; none where there is none."""
+        shapes = self.links[0].shapes
+        if not self.plinth or not shapes:
+            return ()
+        ends = [(end, shape.radius) for shape in shapes for end in (shape.start, shape.end)]
+        low = [min(end[axis] - radius for end, radius in ends) for axis in range(2)]
+        high = [max(end[axis] + radius for end, radius in ends) for axis in range(2)]
+        size = (high[0] - low[0], high[1] - low[1], self.plinth)
+        return (OrientedBox.from_corner((low[0], low[1], 0.0), size),)
+
+    def _raised(self, link: int, point: tuple[float, ...]) -> tuple[float, float, float]:
+        """A point of a link; the frames of base and axis 1 have their origin on the floor."""
+        x, y, z = three(point)
+        return (x, y, z + self.plinth) if link <= 1 else (x, y, z)
 
 
 def _six(values: list[float]) -> Joints:

@@ -16,10 +16,10 @@ from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Joints, Perceived, PlaceId, Recognition, StorageKind
 from depal.geometry import OrientedBox
-from depal.logistics.placing import MARGINS, Books, find_spots
+from depal.logistics.placing import MARGINS, Books, Spot, find_spots
 from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding, grasps
-from depal.motion.moves import OPEN, Kind, Mover, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, Berth, Kind, Mover, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort
 from depal.ports import Trajectory
 
@@ -83,6 +83,8 @@ class Desk:
         self._stopwatch = stopwatch or (lambda: 0.0)
         self._picks: dict[BoxId, PickPlan] = {}
         self._carries: dict[BoxId, CarryPlan] = {}
+        self._searching: dict[BoxId, asyncio.Event] = {}
+        self._reached: set[BoxId] = set()
         self._next_start: Joints | None = None
         self.books = Books.empty(work.layout.places.values())
         self.planned = 0
@@ -134,10 +136,18 @@ class Desk:
     def forget_pick(self, box: BoxId) -> None:
         """The box is to be planned for anew."""
         self._picks.pop(box, None)
+        self._reached.discard(box)
         self._release_spot(box)
 
     async def pick(self, box: BoxId) -> PickPlan | str:
-        """The pick of a box from where the arm stands; planned anew where the kept one is off."""
+        """The pick of a box from where the arm stands; planned anew where the kept one is off.
+
+        Where a place is being searched for the box, this waits: the way to hold it may change.
+        """
+        await asyncio.sleep(0)
+        if box in self._searching:
+            await self._searching[box].wait()
+        self._reached.add(box)
         seen = self._work.pile.get(box)
         if seen is None:
             return f"box {box} is not seen on the pallet"
@@ -226,13 +236,15 @@ class Desk:
         load = self.load_of(box)
         if load is None:
             return f"box {box} is neither held nor about to be"
-        before = self.planned
+        before, searching = self.planned, self._searching.setdefault(box, asyncio.Event())
         plan = self._first_place(load, places)
-        if isinstance(plan, str) and self._work.held is None and box in self._picks:
+        if isinstance(plan, str) and box not in self._reached and box in self._picks:
             plan = self._by_another_grasp(box, places) or plan
-        await self.charge(self.planned - before)
         if not isinstance(plan, str):
             self._keep_carry(plan)
+        await self.charge(self.planned - before)
+        searching.set()
+        del self._searching[box]
         return plan
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
@@ -273,29 +285,22 @@ class Desk:
         cell_from_place = layout.places[place].cell_from_place
         scene = self._around.scene(self._work.pile, without=load.box)
         reason = "no room"
+
+        def berth_at(spot: Spot) -> Berth:
+            target = target_of(cell_from_place, spot, turn)
+            return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
+
         spots = find_spots(
             self.books.at(place),
             held,
             limit=SPOTS,
-            reachable=lambda spot: self._mover.could_put(
-                load.start, load.grasp, load.size, target_of(cell_from_place, spot, turn), scene,
-                MARGINS.lift,
-            ),
+            reachable=lambda spot: not self._mover.why_no_put(load.start, berth_at(spot), scene),
         )
         for spot in spots:
-            target = target_of(cell_from_place, spot, turn)
+            berth = berth_at(spot)
             put = self._measured(
-                lambda target=target, spot=spot: self._mover.put(
-                    load.lead,
-                    load.start,
-                    load.grasp,
-                    load.size,
-                    cell_from_place,
-                    target,
-                    spot.depth + held.size[0],
-                    scene,
-                    MARGINS.lift,
-                    self._effort(),
+                lambda berth=berth: self._mover.put(
+                    load.lead, load.start, berth, scene, self._effort()
                 )
             )
             if isinstance(put, NoMotion):
@@ -308,7 +313,7 @@ class Desk:
             if motion is None or descent is None:
                 reason = "the suction would not hold it"
                 continue
-            return CarryPlan(load, place, spot, target, motion, descent, put.retreat.path)
+            return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
         return reason
 
     def _is_fixed(self, place: PlaceId) -> bool:

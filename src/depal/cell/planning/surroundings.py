@@ -2,11 +2,20 @@
 
 from collections.abc import Iterable
 
+import numpy as np
+
 from depal.cell.pile import Pile
 from depal.domain import BoxId, CellLayout, PlaceId
 from depal.geometry import OrientedBox, Pose
 from depal.logistics.placing import Spot
 from depal.motion.collision import Scene, fixed_solids
+
+
+SEAM = 0.01
+"""A column below a box is this much smaller than the box, for poses are not exact [m]."""
+
+THIN = 0.05
+"""Lower columns are not worth a solid [m]."""
 
 
 class Surroundings:
@@ -15,6 +24,7 @@ class Surroundings:
     def __init__(self, layout: CellLayout) -> None:
         """Nothing stands in any place yet."""
         self._fixed = fixed_solids(layout)
+        self._deck = layout.pallet.cell_from_pallet.translation[2]
         self._placed: dict[BoxId, tuple[PlaceId, OrientedBox]] = {}
 
     def put(self, box: BoxId, place: PlaceId, solid: OrientedBox) -> None:
@@ -39,8 +49,25 @@ class Surroundings:
     def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
         """Everything that stands around, one box left out."""
         cases = [(str(box.id), box.shape) for box in pile.boxes if box.id != without]
+        cases += [
+            (f"what is under {box.id}", column)
+            for box in pile.boxes
+            if (column := self._column(box.shape)) is not None
+        ]
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
         return Scene.of(self._fixed, cases)
+
+
+    def _column(self, box: OrientedBox) -> OrientedBox | None:
+        """What carries a box, seen or not: everything below it down to the deck."""
+        half = float(np.abs(np.array(box.pose.rotation))[2] @ np.array(box.size)) / 2
+        x, y, z = box.centre
+        low = z - half - SEAM
+        if low - self._deck < THIN:
+            return None
+        middle = (x, y, (low + self._deck) / 2)
+        width, depth = box.size[0] - 2 * SEAM, box.size[1] - 2 * SEAM
+        return OrientedBox(Pose(middle, box.pose.rotation), (width, depth, low - self._deck))
 
 
 def target_of(cell_from_place: Pose, spot: Spot, turn: Pose) -> Pose:

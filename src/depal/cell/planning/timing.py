@@ -42,13 +42,12 @@ class Timing:
             )
             for part in parts
         ]
-        return time_path(
-            legs,
-            self.layout.robot,
-            held=holding if self.cone else None,
-            clear=None if checker is None else checker.path_free,
-            speed=self.speed,
-        )
+        held = holding if self.cone else None
+        rounded = None if checker is None else checker.path_free
+        timed = time_path(legs, self.layout.robot, held=held, clear=rounded, speed=self.speed)
+        if timed is not None and not np.isfinite(timed.positions).all():
+            timed = time_path(legs, self.layout.robot, held=held, speed=self.speed)
+        return timed
 
     def slowly(self, part: Part, holding: Holding | None = None) -> Trajectory | None:
         """Along a straight part at the speed at which boxes are set down."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from depal.domain import CellLayout
+from depal.geometry import Vector3
 from depal.motion.collision.checking import (
     FENCE,
     FLOOR,
@@ -16,10 +17,10 @@ from depal.motion.collision.checking import (
     Case,
     Margins,
     edge_is_free,
+    first_free_along,
     first_hit,
     first_hit_along,
 )
-from depal.geometry import Vector3
 from depal.motion.collision.values import Arm, Array, Hand, Scene, arm_of
 from depal.motion.kinematics import Kinematics
 
@@ -104,6 +105,16 @@ class Checker:
         """Whether no row of a path (n, 6) touches anything."""
         return bool(first_hit_along(self.case, path)[0] == FREE)
 
+    def first_free(self, path: Array) -> int | None:
+        """The first row of a path (n, 6) that touches nothing; None where all do."""
+        row = int(first_free_along(self.case, path))
+        return None if row == FREE else row
+
+    def first_hit(self, path: Array) -> int | None:
+        """The first row of a path (n, 6) that touches something; None where none does."""
+        row = int(first_hit_along(self.case, path)[0])
+        return None if row == FREE else row
+
     def edge_free(self, start: Array, end: Array, step: float = STEP) -> bool:
         """Whether the straight joint line between two configurations is free."""
         return bool(edge_is_free(self.case, start, end, self.reach, step))
@@ -139,8 +150,8 @@ class Checker:
 def reaches(body: Body, hand: Hand) -> Array:
     """How far from each axis the furthest thing that it moves can be, (6,) [m]: a bound."""
     a1, a2, _, _, c2, c3, c4 = body.kinematics.dims.tolist()
-    tip = float(np.abs(np.concatenate((hand.solids.low, hand.solids.high))).max(initial=0.1))
-    tip *= 3**0.5
+    furthest = np.maximum(np.abs(hand.solids.low), np.abs(hand.solids.high))
+    tip = float(np.linalg.norm(furthest, axis=1).max(initial=0.1))
     wrist = c4 + tip
     elbow = float(np.hypot(c3, a2)) + wrist
     return np.array([abs(a1) + c2 + elbow, c2 + elbow, elbow, wrist, wrist, tip])

@@ -284,6 +284,17 @@ def first_hit_along(case: Case, path: Array) -> tuple[int, int, int]:
 
 
 @kernel
+def first_free_along(case: Case, path: Array) -> int:
+    """The first row of a path (n, 6) that touches nothing; FREE where every row does."""
+    frames, ends = np.empty((7, 3, 4)), np.empty((len(case.arm.link), 2, 3))
+    work, hit = np.empty((len(case.hand.centre), 4, 3)), np.zeros(2, np.int64)
+    for row in range(len(path)):
+        if not hits(case, path[row], frames, ends, work, hit):
+            return row
+    return FREE
+
+
+@kernel
 def edge_is_free(case: Case, q0: Array, q1: Array, reach: Array, step: float) -> bool:
     """Whether the straight joint line between two configurations is free.
 
@@ -299,7 +310,7 @@ def edge_is_free(case: Case, q0: Array, q1: Array, reach: Array, step: float) ->
     moved = 0.0
     for axis in range(6):
         moved += abs(q1[axis] - q0[axis]) * reach[axis]
-    count = max(1, int(math.ceil(moved / step)))
+    count = max(1, math.ceil(moved / step))
     # From coarse to fine: what is in the way shows early.
     stride = 1
     while stride * 2 <= count:

@@ -1,5 +1,6 @@
 """Motions in free space: the straight joint line, over drawn-in postures, or by growing trees."""
 
+import itertools
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,13 +11,22 @@ from depal.domain import JointLimits
 from depal.motion.collision import STEP, Checker
 from depal.motion.collision.values import Array
 from depal.motion.kinematics import Kinematics, solve_near
-from depal.motion.planning.trees import grow_trees, shorten, span
+from depal.motion.planning.trees import Axes, grow_trees, shorten, span
 
-DRAWN_IN = ((0.95, 1.25), (0.85, 1.6), (1.05, 0.95), (0.75, 1.9), (1.2, 1.5))
+DRAWN_IN = ((0.95, 1.25), (0.85, 1.6), (1.05, 0.95), (0.75, 1.9), (1.2, 1.5), (0.7, 1.3))
 """Where the wrist's centre is in a drawn-in posture: distance from axis 1 and height [m]."""
 
 TRIES = 60
 """Short cuts that are tried."""
+
+EASY = 4
+"""So many goals, the nearest ones, are approached over drawn-in postures."""
+
+LINE = 2
+"""A straight joint line has as many corners."""
+
+SAME = 1e-9
+"""Corners nearer to each other than this are one [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +70,7 @@ class FreePlanner:
     def plan(
         self, checker: Checker, start: Array, goals: Array, effort: Effort, *, level: bool
     ) -> Found | None:
-        """A path from a start to the goal that is nearest along it.
+        """A path from a start to one of some goals: an easy one, or one that is searched for.
 
         Args:
             checker: what must not be touched; start and goals are free.
@@ -73,25 +83,41 @@ class FreePlanner:
         Returns:
             The path with its short cuts; None where none was found.
         """
-        speed = self._speed
-        order = sorted(range(len(goals)), key=lambda k: (span(start, goals[k], speed), k))
-        for k in order:
-            if checker.edge_free(start, goals[k]):
-                return self._found(np.stack((start, goals[k])), "line")
-        for k in order[:4]:
-            for path in self._over_drawn_in(start, goals[k]):
-                if all(checker.edge_free(a, b) for a, b in zip(path[:-1], path[1:], strict=True)):
-                    return self._found(self._shortened(checker, path, effort), "drawn in")
-        levels = self._levels(start, goals) if level else np.empty((0, 3, 3))
+        easy = self.quick(checker, start, goals, effort)
+        return easy or self.search(checker, start, goals, effort, level=level)
+
+    def quick(self, checker: Checker, start: Array, goals: Array, effort: Effort) -> Found | None:
+        """The shortest of the straight joint lines and the ways over drawn-in postures."""
+        if not checker.free(start):
+            return None
+        ways = [np.stack((start, goal)) for goal in goals]
+        order = sorted(range(len(goals)), key=lambda k: (self._length(ways[k]), k))
+        for k in order[:EASY]:
+            ways += self._over_drawn_in(start, goals[k])
+        for way in sorted(ways, key=self._length):
+            if all(checker.edge_free(a, b) for a, b in itertools.pairwise(way)):
+                if len(way) == LINE:
+                    return self._found(way, "line")
+                return self._found(self._shortened(checker, way, effort), "drawn in")
+        return None
+
+    def is_open(self, checker: Checker, q: Array) -> bool:
+        """Whether the arm can draw in from a configuration at once: from there all is near."""
+        return any(
+            checker.free(drawn) and checker.edge_free(drawn, q) for drawn in self._all_drawn_in(q)
+        )
+
+    def search(
+        self, checker: Checker, start: Array, goals: Array, effort: Effort, *, level: bool
+    ) -> Found | None:
+        """A path found by growing trees from the start and from all goals."""
+        if not checker.free(start):
+            return None
         kinematics = self._kinematics
         path = grow_trees(
             checker.case,
-            checker.reach,
-            STEP,
-            speed,
-            kinematics.lower,
-            kinematics.upper,
-            levels,
+            Axes(checker.reach, self._speed, kinematics.lower, kinematics.upper, STEP),
+            self._levels(start, goals) if level else np.empty((0, 3, 3)),
             start,
             goals,
             effort.iterations,
@@ -102,24 +128,32 @@ class FreePlanner:
         return self._found(self._shortened(checker, path, effort), "trees")
 
     def _shortened(self, checker: Checker, path: Array, effort: Effort) -> Array:
-        short = shorten(checker.case, checker.reach, STEP, self._speed, path, TRIES, effort.seed)
+        kinematics = self._kinematics
+        axes = Axes(checker.reach, self._speed, kinematics.lower, kinematics.upper, STEP)
+        short = shorten(checker.case, axes, path, TRIES, effort.seed)
         return _without_straights(short)
 
     def _found(self, path: Array, how: str) -> Found:
-        length = sum(span(a, b, self._speed) for a, b in zip(path[:-1], path[1:], strict=True))
-        return Found(path, how, span(path[0], path[-1], self._speed), length)
+        return Found(path, how, span(path[0], path[-1], self._speed), self._length(path))
+
+    def _length(self, path: Array) -> float:
+        """The time of a path at full speed [s]."""
+        turns = np.abs(np.diff(path, axis=0)) / self._speed
+        return float(turns.max(axis=1).sum())
 
     def _over_drawn_in(self, start: Array, goal: Array) -> Iterator[Array]:
         """Draw the arm in, turn, reach out; several postures, and one end alone drawn in."""
+        ones, others = list(self._all_drawn_in(start)), list(self._all_drawn_in(goal))
+        for one in ones:
+            yield np.stack((start, one, goal))
+            yield from (np.stack((start, one, other, goal)) for other in others)
+        yield from (np.stack((start, other, goal)) for other in others)
+
+    def _all_drawn_in(self, q: Array) -> Iterator[Array]:
         for radius, height in DRAWN_IN:
-            one = self._drawn_in(start, radius, height)
-            other = self._drawn_in(goal, radius, height)
-            if one is not None and other is not None:
-                yield np.stack((start, one, other, goal))
-            if one is not None:
-                yield np.stack((start, one, goal))
-            if other is not None:
-                yield np.stack((start, other, goal))
+            drawn = self._drawn_in(q, radius, height)
+            if drawn is not None:
+                yield drawn
 
     def _drawn_in(self, q: Array, radius: float, height: float) -> Array | None:
         """The flange as it is held at q, the wrist drawn in along the same heading of axis 1."""
@@ -133,7 +167,8 @@ class FreePlanner:
         if not len(found):
             return None
         times = np.abs(found - q) / self._speed
-        return found[int(np.argmin(times.max(axis=1)))]
+        nearest: Array = found[int(np.argmin(times.max(axis=1)))]
+        return nearest
 
     def _levels(self, start: Array, goals: Array) -> Array:
         """The flange's orientation at the start and at the goals."""
@@ -147,7 +182,7 @@ def _without_straights(path: Array) -> Array:
     for k in range(1, len(path) - 1):
         ahead, behind = path[k + 1] - path[k], path[k] - kept[-1]
         long = np.linalg.norm(ahead) * np.linalg.norm(behind)
-        if np.linalg.norm(behind) < 1e-9 or (long > 0 and ahead @ behind > (1 - 1e-10) * long):
+        if np.linalg.norm(behind) < SAME or (long > 0 and ahead @ behind > (1 - 1e-10) * long):
             continue
         kept.append(path[k])
     kept.append(path[-1])

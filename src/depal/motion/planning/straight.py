@@ -71,13 +71,26 @@ def straight(
         (n, 6) [rad], the start included; None where the arm does not reach, or would have to
         change its branch on the way.
     """
-    length = math.dist((0.0, 0.0, 0.0), shift)
-    count = max(1, math.ceil(length / pitch))
+    path, whole = _along(kinematics, start, shift, pitch)
+    return path if whole else None
+
+
+def straight_as_far(
+    kinematics: Kinematics, start: Array, shift: Vector3, pitch: float = PITCH
+) -> Array:
+    """The same as far as the arm reaches, (n, 6) [rad]; the start alone where it does not."""
+    return _along(kinematics, start, shift, pitch)[0]
+
+
+def _along(
+    kinematics: Kinematics, start: Array, shift: Vector3, pitch: float
+) -> tuple[Array, bool]:
+    count = max(1, math.ceil(math.dist((0.0, 0.0, 0.0), shift) / pitch))
     frame = kinematics.frames(start)[6]
     good, path = line_path(
         frame, np.array(shift), count, start, kinematics.dims, kinematics.lower, kinematics.upper
     )
-    return path if good == count + 1 else None
+    return path[:good], bool(good == count + 1)
 
 
 def moved(pose: Pose, shift: Vector3) -> Pose:

@@ -4,19 +4,40 @@ Distances are times: the axis that takes longest at full speed. Samples hold the
 held box has to stay upright, for at random hardly any does.
 """
 
-import math
+from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from depal.geometry import kernel, loop_kernel
 from depal.motion.collision.checking import Case, edge_is_free
 from depal.motion.collision.values import Array
-from depal.motion.kinematics import link_frames
+from depal.motion.planning.samples import level_sample, stream_of, uniform
+
+Integers = npt.NDArray[np.int64]
 
 TRAPPED, ADVANCED, REACHED = 0, 1, 2
 
 REACH = 0.6
 """A branch grows by this much at once [s at full speed]."""
+
+
+class Axes(NamedTuple):
+    """What a search needs to know of the arm's axes.
+
+    Attributes:
+        reach: (6,) bound of how far from each axis anything is that it moves [m].
+        speed: (6,) [rad/s].
+        lower: (6,) [rad].
+        upper: (6,) [rad].
+        step: of the checks along edges [m].
+    """
+
+    reach: Array
+    speed: Array
+    lower: Array
+    upper: Array
+    step: float
 
 
 @loop_kernel
@@ -41,23 +62,16 @@ def nearest(tree: Array, count: int, q: Array, speed: Array) -> int:
 
 @kernel
 def extend(
-    case: Case,
-    reach: Array,
-    step: float,
-    speed: Array,
-    tree: Array,
-    parent: Array,
-    count: int,
-    q: Array,
+    case: Case, axes: Axes, tree: Array, parent: Integers, count: int, q: Array
 ) -> tuple[int, int]:
     """Grows a tree towards a configuration by one step; how it ended, and the new count."""
-    near = nearest(tree, count, q, speed)
-    distance = span(tree[near], q, speed)
+    near = nearest(tree, count, q, axes.speed)
+    distance = span(tree[near], q, axes.speed)
     if distance <= REACH:
         new, ended = q.copy(), REACHED
     else:
         new, ended = tree[near] + (q - tree[near]) * (REACH / distance), ADVANCED
-    if count >= len(tree) or not edge_is_free(case, tree[near], new, reach, step):
+    if count >= len(tree) or not edge_is_free(case, tree[near], new, axes.reach, axes.step):
         return TRAPPED, count
     tree[count] = new
     parent[count] = near
@@ -65,58 +79,9 @@ def extend(
 
 
 @kernel
-def level_sample(lower: Array, upper: Array, levels: Array, dims: Array) -> Array:
-    """A random configuration; the wrist turned so that the flange has one of the orientations.
-
-    Args:
-        lower: (6,) [rad].
-        upper: (6,) [rad].
-        levels: (k, 3, 3) orientations of the flange, each free to turn about the vertical; none
-            for samples without a condition.
-        dims: (7,) of the arm's geometry [m].
-    """
-    q = np.empty(6)
-    for axis in range(6):
-        q[axis] = lower[axis] + (upper[axis] - lower[axis]) * np.random.random()
-    if len(levels) == 0:
-        return q
-    level = levels[np.random.randint(len(levels))]
-    turn = 2 * math.pi * np.random.random() - math.pi
-    if np.random.random() < 0.7:  # mostly outward, as the arm reaches
-        turn = -q[0] + 0.8 * (np.random.random() - 0.5)
-    frames = np.empty((7, 3, 4))
-    q[3], q[4], q[5] = 0.0, 0.0, 0.0
-    link_frames(q, dims, frames)
-    c, s = math.cos(turn), math.sin(turn)
-    m = np.zeros((3, 3))
-    for column in range(3):
-        wanted0 = c * level[0, column] - s * level[1, column]
-        wanted1 = s * level[0, column] + c * level[1, column]
-        wanted2 = level[2, column]
-        for row in range(3):
-            m[row, column] = (
-                frames[2, 0, row] * wanted0
-                + frames[2, 1, row] * wanted1
-                + frames[2, 2, row] * wanted2
-            )
-    bend = math.hypot(m[1, 0], m[2, 0])
-    flip = 1.0 if np.random.random() < 0.5 else -1.0
-    q[4] = math.atan2(flip * bend, m[0, 0])
-    q[3] = -math.atan2(flip * m[1, 0], -flip * m[2, 0])
-    q[5] = -math.atan2(flip * m[0, 1], flip * m[0, 2])
-    for axis in range(3, 6):
-        q[axis] = min(max(q[axis], lower[axis]), upper[axis])
-    return q
-
-
-@kernel
 def grow_trees(
     case: Case,
-    reach: Array,
-    step: float,
-    speed: Array,
-    lower: Array,
-    upper: Array,
+    axes: Axes,
     levels: Array,
     start: Array,
     goals: Array,
@@ -127,11 +92,7 @@ def grow_trees(
 
     Args:
         case: what must not be touched.
-        reach: (6,) bound of what each axis moves [m].
-        step: of the checks along edges [m].
-        speed: (6,) of the axes [rad/s].
-        lower: (6,) [rad].
-        upper: (6,) [rad].
+        axes: of the arm.
         levels: (k, 3, 3) see `level_sample`.
         start: (6,) free [rad].
         goals: (g, 6) free [rad].
@@ -141,7 +102,7 @@ def grow_trees(
     Returns:
         (n, 6) from the start to a goal; no rows where none was found.
     """
-    np.random.seed(seed)
+    stream = stream_of(seed)
     room = 2 * iterations + len(goals) + 64
     trees = np.empty((2, room, 6))
     parents = np.full((2, room), -1, np.int64)
@@ -151,16 +112,14 @@ def grow_trees(
     for k in range(iterations):
         one = k % 2
         other = 1 - one
-        q = level_sample(lower, upper, levels, case.dims)
-        ended, counts[one] = extend(
-            case, reach, step, speed, trees[one], parents[one], counts[one], q
-        )
+        q = level_sample(axes.lower, axes.upper, levels, case.dims, stream)
+        ended, counts[one] = extend(case, axes, trees[one], parents[one], counts[one], q)
         if ended == TRAPPED:
             continue
         new = trees[one, counts[one] - 1].copy()
         while True:
             ended, counts[other] = extend(
-                case, reach, step, speed, trees[other], parents[other], counts[other], new
+                case, axes, trees[other], parents[other], counts[other], new
             )
             if ended != ADVANCED:
                 break
@@ -171,7 +130,7 @@ def grow_trees(
 
 
 @kernel
-def _joined(trees: Array, parents: Array, ends: Array) -> Array:
+def _joined(trees: Array, parents: Integers, ends: Integers) -> Array:
     forward = 0
     k = ends[0]
     while k >= 0:
@@ -195,11 +154,9 @@ def _joined(trees: Array, parents: Array, ends: Array) -> Array:
 
 
 @kernel
-def shorten(
-    case: Case, reach: Array, step: float, speed: Array, path: Array, tries: int, seed: int
-) -> Array:
+def shorten(case: Case, axes: Axes, path: Array, tries: int, seed: int) -> Array:
     """A path with its detours cut off: straight joint lines between random points of it."""
-    np.random.seed(seed)
+    stream = stream_of(seed)
     points = path.copy()
     for _ in range(tries):
         n = len(points)
@@ -207,9 +164,9 @@ def shorten(
             return points
         lengths = np.zeros(n)
         for k in range(1, n):
-            lengths[k] = lengths[k - 1] + span(points[k - 1], points[k], speed)
+            lengths[k] = lengths[k - 1] + span(points[k - 1], points[k], axes.speed)
         total = lengths[n - 1]
-        s, e = total * np.random.random(), total * np.random.random()
+        s, e = total * uniform(stream), total * uniform(stream)
         if s > e:
             s, e = e, s
         i = min(max(np.searchsorted(lengths, s, side="right") - 1, 0), n - 2)
@@ -218,9 +175,9 @@ def shorten(
             continue
         a = _between(points, lengths, i, s)
         b = _between(points, lengths, j, e)
-        if span(a, b, speed) > 0.999 * (e - s):
+        if span(a, b, axes.speed) > 0.999 * (e - s):
             continue
-        if not edge_is_free(case, a, b, reach, step):
+        if not edge_is_free(case, a, b, axes.reach, axes.step):
             continue
         cut = np.empty((i + 1 + 2 + n - 1 - j, 6))
         cut[: i + 1] = points[: i + 1]
@@ -235,4 +192,5 @@ def shorten(
 def _between(points: Array, lengths: Array, k: int, s: float) -> Array:
     part = lengths[k + 1] - lengths[k]
     u = (s - lengths[k]) / part if part > 0.0 else 0.0
-    return points[k] + (points[k + 1] - points[k]) * u
+    between: Array = points[k] + (points[k + 1] - points[k]) * u
+    return between

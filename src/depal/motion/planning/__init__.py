@@ -1,0 +1,1 @@
+"""Paths: straight ones near boxes, any in free space."""
