@@ -19,15 +19,26 @@ class Picture:
 
     Attributes:
         colour: (h, w, 3) RGB.
-        depth: (h, w) along the optical axis [m]; infinite where nothing stands.
-        parts: (h, w) the part of the mesh, -1 where nothing stands.
+        nearest: (h, w) 1 / depth [1/m]; 0 where nothing stands.
         triangles: (h, w) the triangle of the mesh, -1 where nothing stands.
+        mesh: what was drawn.
     """
 
     colour: npt.NDArray[np.uint8]
-    depth: Floats
-    parts: npt.NDArray[np.int64]
+    nearest: Floats
     triangles: npt.NDArray[np.int32]
+    mesh: Mesh
+
+    @property
+    def depth(self) -> Floats:
+        """(h, w) along the optical axis [m]; infinite where nothing stands."""
+        with np.errstate(divide="ignore"):
+            return 1.0 / self.nearest
+
+    @property
+    def parts(self) -> npt.NDArray[np.int64]:
+        """(h, w) the part of the mesh, -1 where nothing stands."""
+        return np.asarray(np.append(self.mesh.parts, -1)[self.triangles])
 
 
 def render(
@@ -60,9 +71,7 @@ def render(
     colour[:] = sky
     fields = _fields(mesh, corners, atlas, light or Light())
     paint(triangles, nearest, fields, mesh.skins, atlas.table, atlas.texels, lens.values, colour)
-    parts = np.append(mesh.parts, -1)[triangles]
-    with np.errstate(divide="ignore"):
-        return Picture(colour, 1.0 / nearest, parts, triangles)
+    return Picture(colour, nearest, triangles, mesh)
 
 
 def _fields(mesh: Mesh, corners: Floats, atlas: Atlas, light: Light) -> Floats:
