@@ -72,6 +72,7 @@ def test_horizontal_grasps_touch_the_side_that_faces_the_robot_and_vertical_ones
                 assert abs(into[2]) < 1e-9
 
 
+@settings(max_examples=25)
 @given(sizes, masses)
 def test_what_is_offered_holds_the_box_at_rest(size: Vector3, mass: float) -> None:
     """With the planner's safety and something to move with."""
@@ -79,6 +80,7 @@ def test_what_is_offered_holds_the_box_at_rest(size: Vector3, mass: float) -> No
         assert static_share(grasp, mass, TOOL) <= 0.95
 
 
+@settings(max_examples=25)
 @given(sizes, masses)
 def test_the_list_is_short_and_holds_nothing_twice(size: Vector3, mass: float) -> None:
     """At most 24 ways, each another one, from cups that exist."""
@@ -95,6 +97,7 @@ def test_the_list_is_short_and_holds_nothing_twice(size: Vector3, mass: float) -
             assert grasp.folded or names == {FRONT}
 
 
+@settings(max_examples=25)
 @given(sizes, st.floats(0.5, 6.0), st.floats(1.05, 2.0))
 def test_a_lighter_box_is_held_in_every_way_that_a_heavier_one_is(
     size: Vector3, mass: float, factor: float
@@ -104,6 +107,7 @@ def test_a_lighter_box_is_held_in_every_way_that_a_heavier_one_is(
         assert static_share(grasp, mass, TOOL) <= static_share(grasp, mass * factor, TOOL)
 
 
+@settings(max_examples=25)
 @given(sizes, masses)
 def test_a_box_turned_by_half_looks_the_same(size: Vector3, mass: float) -> None:
     """As many ways, with the same cups, in the same order."""
@@ -186,6 +190,7 @@ def test_a_box_that_cannot_be_held_is_refused_in_words(
     assert refusal(size, mass, TOOL, 60.0) == words
 
 
+@settings(max_examples=25)
 @given(sizes, st.floats(0.5, 50.0))
 def test_what_is_refused_has_no_grasp_and_what_is_not_has_one(size: Vector3, mass: float) -> None:
     """In any of the ways that it may stand, turned about the vertical."""

@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from timed_motions import (
     ACCELERATION,
@@ -21,6 +21,7 @@ from timed_motions import (
     seeds,
 )
 
+from depal.errors import SettingError
 from depal.motion.planning.straight import straight
 from depal.motion.timing import Leg, bound_time, full_speed_time, smooth, time_path
 from depal.ports import Trajectory
@@ -42,6 +43,7 @@ def approach() -> tuple[Leg, Leg]:
     return Leg(free, speed=2.0), Leg(back[::-1].copy(), curve=True, speed=0.4, touching=True)
 
 
+@settings(max_examples=30)
 @given(seeds, st.sampled_from([0.5, 2.0, float("inf")]))
 def test_no_limit_of_the_axes_or_the_flange_is_exceeded(seed: int, fastest: float) -> None:
     """Speeds and accelerations of the axes, speed of the flange."""
@@ -86,6 +88,7 @@ def test_slower_is_the_same_motion_stretched_in_time(seed: int, speed: float) ->
     )
 
 
+@settings(max_examples=20)
 @given(seeds, st.floats(0.001, 0.02))
 def test_a_rounded_corner_stays_near_its_corner(seed: int, rounding: float) -> None:
     """The flange leaves the lines between the corners by no more than it may."""
@@ -224,6 +227,7 @@ def test_the_bound_of_a_path_is_the_time_of_its_straight_line(seed: int) -> None
     assert (np.abs(points[-1] - points[0]) <= SPEED * bound * (1 + 1e-12)).all()
 
 
+@settings(max_examples=20)
 @given(seeds)
 def test_samples_and_what_lies_between_them_agree(seed: int) -> None:
     """The cubics between samples stay within the limits of the axes' positions too."""
@@ -239,3 +243,10 @@ def test_straight_moves_keep_to_the_cells_speed() -> None:
     _, line = approach()
     leg = Leg(line.points, curve=True, speed=CELL.speeds.straight)
     assert flange_speeds(timed(leg)).max() == pytest.approx(CELL.speeds.straight, rel=0.01)
+
+
+def test_legs_that_do_not_meet_are_refused() -> None:
+    """The arm cannot jump."""
+    free, line = approach()
+    with pytest.raises(SettingError, match=r"leg 2: it begins .* rad from where the one before"):
+        timed(line, free)

@@ -94,7 +94,7 @@ def between(trajectory: Trajectory, count: int) -> Floats:
 
 
 def shares(
-    trajectory: Trajectory, holding: Holding, safety: float | None = None, count: int = 200
+    trajectory: Trajectory, holding: Holding, safety: float | None = None, count: int = 100
 ) -> Floats:
     """How much of the suction a motion uses, from poses of the flange alone, by differences."""
     h = 1e-4

@@ -89,16 +89,18 @@ class Way:
 
 
 def faces_of(box: OrientedBox, front: Vector3) -> Iterator[Face]:
-    """The side of an upright box that faces the robot, and its top."""
+    """The top of an upright box, and its side that faces the robot."""
     rotation = np.array(box.pose.rotation)
     toward = rotation.T @ np.array(front)  # in the box's frame
     axis = int(np.argmax(np.abs(toward[:2])))
     sign = 1.0 if toward[axis] > 0 else -1.0
     normal = np.zeros(3)
     normal[axis] = sign
-    yield _face(Approach.HORIZONTAL, box.size, normal, np.array([0.0, 0.0, 1.0]))
-    # The top, with the face's z away from the robot: the tool reaches over the box from the front.
-    yield _face(Approach.VERTICAL, box.size, np.array([0.0, 0.0, 1.0]), -normal)
+    up = np.array([0.0, 0.0, 1.0])
+    # The top first: of two equal ways hanging is the faster one. Its z points away from the robot,
+    # for the tool reaches over the box from the front.
+    yield _face(Approach.VERTICAL, box.size, up, -normal)
+    yield _face(Approach.HORIZONTAL, box.size, normal, up)
 
 
 def _face(approach: Approach, size: Vector3, normal: Floats, up: Floats) -> Face:

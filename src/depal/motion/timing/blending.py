@@ -20,7 +20,7 @@ from depal.motion.timing.legs import Floats, Leg, Path, hermite, piece_end, piec
 Clear = Callable[[Floats], bool]
 """Whether no row of (n, 6) configurations touches anything."""
 
-SAME = 1e-9
+SAME = 1e-6
 """Points closer than this in time at full speed are one [s]."""
 
 REVERSAL = -0.9
@@ -81,7 +81,12 @@ class Smoother:
 
     def path(self, legs: Sequence[Leg]) -> Path | None:
         """The path through all legs; None where nothing moves."""
-        pieces = [piece for k, leg in enumerate(legs) for piece in self._pieces(leg, k)]
+        pieces: list[_Piece] = []
+        for k, leg in enumerate(legs):
+            last = pieces[-1] if pieces else None
+            pieces += self._pieces(
+                leg, k, piece_end(last.coefficients, last.length) if last else None
+            )
         out: list[_Piece] = []
         stops, worst = [True], 0.0
         for k, piece in enumerate(pieces[:-1]):
@@ -105,13 +110,16 @@ class Smoother:
             worst,
         )
 
-    def _pieces(self, leg: Leg, number: int) -> list[_Piece]:
+    def _pieces(self, leg: Leg, number: int, start: Floats | None) -> list[_Piece]:
+        """The pieces of a leg, from exactly where the one before ended."""
         rows, spans = np.empty(len(leg.points), np.int64), np.empty(len(leg.points))
         pitch = PITCH if leg.curve else 0.0
         count = _distinct(leg.points, self.speed, pitch, rows, spans) - 1
         if not count:
             return []
         points, spans = leg.points[rows[: count + 1]], spans[:count]
+        if start is not None:
+            points[0] = start
         if leg.curve and count > 1:
             at = np.concatenate(((0.0,), np.cumsum(spans)))
             rates = spline_rates(at, points)
@@ -197,6 +205,15 @@ def _speeds(pieces: list[_Piece], legs: Sequence[Leg]) -> Floats:
 
 
 @loop_kernel
+def _span(points: Floats, a: int, b: int, speed: Floats) -> float:
+    """The time between two rows at full speed [s]."""
+    most = 0.0
+    for axis in range(6):
+        most = max(most, abs(points[a, axis] - points[b, axis]) / speed[axis])
+    return most
+
+
+@loop_kernel
 def _distinct(
     points: Floats, speed: Floats, pitch: float, kept: npt.NDArray[np.int64], spans: Floats
 ) -> int:
@@ -212,19 +229,22 @@ def _distinct(
     Returns:
         How many are kept.
     """
-    n, count, since = len(points), 1, 0.0
-    kept[0] = 0
+    n, total = len(points), 0.0
     for k in range(1, n):
-        step, span, last = 0.0, 0.0, kept[count - 1]
-        for axis in range(6):
-            step = max(step, abs(points[k, axis] - points[k - 1, axis]) / speed[axis])
-            span = max(span, abs(points[k, axis] - points[last, axis]) / speed[axis])
-        since += step
-        if span < SAME or (k < n - 1 and since < pitch):
+        total += _span(points, k - 1, k, speed)
+    even = total / math.ceil(total / pitch) if pitch > 0.0 and total > 0.0 else 0.0
+    kept[0] = 0
+    count, gone = 1, 0.0
+    for k in range(1, n):
+        gone += _span(points, k - 1, k, speed)
+        span = _span(points, kept[count - 1], k, speed)
+        if k == n - 1 and span < SAME and count > 1:  # the end itself, instead of what is beside it
+            count -= 1
+            span = _span(points, kept[count - 1], k, speed)
+        if span < SAME or (k < n - 1 and gone < even * count - SAME):
             continue
         kept[count], spans[count - 1] = k, span
         count += 1
-        since = 0.0
     return count
 
 

@@ -21,6 +21,9 @@ from depal.motion.timing.loads import Load, flange_rates, wrenches
 FLAT = 1e-10
 """A coefficient below this is none."""
 
+CLOSE = 2e-6
+"""Samples that follow each other faster than this are left out, for rounding's sake [s]."""
+
 STEPS = 60
 """The greatest x of an interval is looked for in this many steps at the most."""
 
@@ -244,11 +247,13 @@ def sampled(course: Course, x: Floats, period: float) -> tuple[Floats, Floats, F
         u = (x[i + 1] - x[i]) / (2 * course.step[i])
         for k in range(counts[i] + (1 if i == n - 1 else 0)):
             t = span * k / counts[i]
+            if row > 0 and k < counts[i] and at[i] + t - times[row - 1] < CLOSE:
+                continue
             s, fast = course.start[i] + t * (speed + u * t / 2), max(speed + u * t, 0.0)
             piece_at(course.pieces[course.piece[i]], s, scratch[0], scratch[1], scratch[2])
             times[row] = at[i] + t
             for axis in range(6):
                 points[row, axis], rates[row, axis] = scratch[0, axis], scratch[1, axis] * fast
             row += 1
-    rates[m - 1] = 0.0
-    return times, points, rates, at
+    rates[row - 1] = 0.0
+    return times[:row], points[:row], rates[:row], at

@@ -1,10 +1,12 @@
 """When the arm is where: the fastest trajectory along a path that breaks no limit."""
 
+import itertools
 from collections.abc import Sequence
 
 import numpy as np
 
 from depal.domain import JointLimits, Robot
+from depal.errors import SettingError
 from depal.motion.grasping.holding import Holding
 from depal.motion.timing.blending import Clear, Smoother
 from depal.motion.timing.legs import Floats, Leg, Path
@@ -20,6 +22,9 @@ LEAST = 3
 
 TIGHT = 0.3
 """A piece is a tight turn when some axis changes its rate by this share of its speed."""
+
+GAP = 1e-3
+"""Legs whose ends are closer than this meet [rad]."""
 
 PERIOD = 0.02
 """Samples of a trajectory lie no further apart, at full speed [s]."""
@@ -44,6 +49,9 @@ def time_path(
 
     Returns:
         The trajectory; None where the box would not be held even at rest.
+
+    Raises:
+        SettingError: a leg begins elsewhere than the one before ended.
     """
     path = smooth(legs, robot, clear)
     if path is None:
@@ -53,7 +61,17 @@ def time_path(
 
 
 def smooth(legs: Sequence[Leg], robot: Robot, clear: Clear | None = None) -> Path | None:
-    """The path through some legs, its corners rounded off; None where nothing moves."""
+    """The path through some legs, its corners rounded off; None where nothing moves.
+
+    Raises:
+        SettingError: a leg begins elsewhere than the one before ended.
+    """
+    for k, (before, after) in enumerate(itertools.pairwise(legs), start=1):
+        gap = float(np.abs(after.points[0] - before.points[-1]).max())
+        if gap > GAP:
+            raise SettingError(
+                f"leg {k + 1}", f"it begins {gap:.3g} rad from where the one before ends", "0 rad"
+            )
     return Smoother(np.array(robot.limits.speed), _dims(robot), clear).path(legs)
 
 
