@@ -8,7 +8,6 @@ import numpy.typing as npt
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from referees import Referee
 
 from depal.cell.files import shipped_cell
 from depal.domain import CellLayout
@@ -16,6 +15,7 @@ from depal.geometry import OrientedBox, Pose
 from depal.logistics import read_delivery
 from depal.motion.collision import Body, Checker, Hand, Margins, Scene, Upright, fixed_solids
 from depal.motion.kinematics import Kinematics
+from depal.studies.bench.planning_referee import Referee
 from depal.studies.real import perceived_stack
 
 Floats = npt.NDArray[np.float64]

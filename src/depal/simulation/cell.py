@@ -12,6 +12,8 @@ from depal.simulation.devices import (
     SimulatedGripper,
     SimulatedSafety,
 )
+from depal.simulation.imaging.reader import SimulatedReader
+from depal.simulation.imaging.scene import Stage
 from depal.simulation.people import Policy, SimulatedPerson, first_choice
 from depal.simulation.referee import Referee
 from depal.simulation.stacking import stacked
@@ -32,8 +34,8 @@ class SimulatedCell:
         person: behind `Person`.
         sight: behind `Sight`, from the truth.
         referee: for reports and tests only.
+        reader: behind `BarcodeReader`.
         camera: behind `Camera`, where pictures are made.
-        reader: behind `BarcodeReader`, where pictures are made.
     """
 
     world: World
@@ -44,8 +46,8 @@ class SimulatedCell:
     person: SimulatedPerson
     sight: TruthSight
     referee: Referee
+    reader: BarcodeReader
     camera: Camera | None = None
-    reader: BarcodeReader | None = None
 
 
 def build(
@@ -88,4 +90,5 @@ def build(
         SimulatedPerson(world, time, policy),
         TruthSight(world, time, sight),
         Referee(world),
+        reader=SimulatedReader(Stage(world), time),
     )

@@ -22,6 +22,9 @@ TILT = math.radians(25)
 BEFORE = 0.10
 """A straight approach begins this far before the plane of touch [m]."""
 
+AFTER = 0.05
+"""The straight ways into a place and out of it are at least this long [m]."""
+
 LIFT = 0.008
 """A box is lifted by this before it is pulled out [m]."""
 

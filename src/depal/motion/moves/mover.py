@@ -9,7 +9,7 @@ from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Body, Checker, Margins, Scene
 from depal.motion.collision.values import Array
 from depal.motion.moves.margins import OPEN
-from depal.motion.moves.picking import plan_pick
+from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
 from depal.motion.moves.reach import Reach
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick, Put
@@ -61,6 +61,22 @@ class Mover:
             effort: for free space.
         """
         return plan_pick(self._reach, start, box, grasps, scene, name, effort)
+
+    def why_no_pick(
+        self, near: Array, box: OrientedBox, grasp: Grasp, scene: Scene, name: str
+    ) -> str:
+        """Why a grasp is of no use, by its straight parts alone; empty where it is.
+
+        Cheap: for the choice of a grasp that suits both the pick and the place.
+
+        Args:
+            near: (6,) where the arm will be [rad].
+            box: in the cell frame.
+            grasp: how it would be held.
+            scene: all that stands around, the box included under its name.
+            name: of the box in the scene.
+        """
+        return why_no_pick(self._reach, near, box, grasp, scene, name)
 
     def put(
         self,

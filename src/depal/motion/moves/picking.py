@@ -92,6 +92,25 @@ def plan_pick(
     return NoMotion.because(reasons)
 
 
+def why_no_pick(
+    reach: Reach, near: Array, box: OrientedBox, grasp: Grasp, scene: Scene, name: str
+) -> str:
+    """Why a grasp is of no use, as far as its straight parts go; empty where it is.
+
+    Args:
+        reach: of the arm.
+        near: (6,) configurations near this one come first [rad].
+        box: in the cell frame.
+        grasp: how it would be held.
+        scene: all that stands around, the box included under its name.
+        name: of the box in the scene.
+    """
+    reasons: list[str] = []
+    for _ in _options(reach, near, box, grasp, scene, scene.without(name), reasons):
+        return ""
+    return str(NoMotion.because(reasons))
+
+
 def _ends(options: Sequence[_Option]) -> Array:
     return np.stack([option.back[-1] for option in options])
 

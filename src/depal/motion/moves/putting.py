@@ -9,11 +9,11 @@ from depal.domain import Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Scene
 from depal.motion.collision.values import Array
-from depal.motion.moves.margins import BELOW, ENTRY, FINE, LEAVING, OPEN
+from depal.motion.moves.margins import AFTER, BELOW, ENTRY, FINE, LEAVING, OPEN
 from depal.motion.moves.reach import Reach
 from depal.motion.moves.values import Kind, NoMotion, Part, Put
 from depal.motion.planning.free import Effort
-from depal.motion.planning.straight import moved, straight
+from depal.motion.planning.straight import PITCH, moved, straight
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +125,7 @@ def _options(
         if hit := entry.why(q):
             reasons.append(hit)
             continue
-        back = reach.way_out(q, berth.outward, entry, clear)
+        back = reach.way_out(q, berth.outward, entry, clear, round(AFTER / PITCH))
         if isinstance(back, str):
             reasons.append(back)
             continue
@@ -145,4 +145,4 @@ def _retreat(reach: Reach, q: Array, berth: Berth, scene: Scene) -> Array | str:
     """Straight out with an empty hand until the tool is clear of everything."""
     with_box = scene.with_case("the box", OrientedBox(berth.target, berth.size))
     near = reach.checker(with_box, LEAVING, folded=berth.grasp.folded)
-    return reach.way_out(q, berth.outward, near, near.with_margins(OPEN))
+    return reach.way_out(q, berth.outward, near, near.with_margins(OPEN), round(AFTER / PITCH))

@@ -11,16 +11,24 @@ from depal.domain import JointLimits
 from depal.motion.collision import STEP, Checker
 from depal.motion.collision.values import Array
 from depal.motion.kinematics import Kinematics, solve_near
-from depal.motion.planning.trees import Axes, grow_trees, shorten, span
+from depal.motion.planning.axes import Axes, span
+from depal.motion.planning.shortcuts import pull, shorten
+from depal.motion.planning.trees import grow_trees
 
 DRAWN_IN = ((0.95, 1.25), (0.85, 1.6), (1.05, 0.95), (0.75, 1.9), (1.2, 1.5), (0.7, 1.3))
 """Where the wrist's centre is in a drawn-in posture: distance from axis 1 and height [m]."""
 
-TRIES = 60
+TRIES = 80
 """Short cuts that are tried."""
 
 EASY = 4
 """So many goals, the nearest ones, are approached over drawn-in postures."""
+
+COMPARED = 2
+"""So many easy ways are shortened; the shorter one is taken."""
+
+WORTH = 2.5
+"""An easy way that is longer than another by this factor will not become shorter."""
 
 LINE = 2
 """A straight joint line has as many corners."""
@@ -38,7 +46,7 @@ class Effort:
         seed: of the samples.
     """
 
-    iterations: int = 3000
+    iterations: int = 12000
     seed: int = 0
 
 
@@ -94,12 +102,17 @@ class FreePlanner:
         order = sorted(range(len(goals)), key=lambda k: (self._length(ways[k]), k))
         for k in order[:EASY]:
             ways += self._over_drawn_in(start, goals[k])
+        found: list[Found] = []
         for way in sorted(ways, key=self._length):
+            if found and self._length(way) > WORTH * found[0].length:
+                break
             if all(checker.edge_free(a, b) for a, b in itertools.pairwise(way)):
                 if len(way) == LINE:
                     return self._found(way, "line")
-                return self._found(self._shortened(checker, way, effort), "drawn in")
-        return None
+                found.append(self._found(self._shortened(checker, way, effort), "drawn in"))
+                if len(found) == COMPARED:
+                    break
+        return min(found, key=lambda one: one.length, default=None)
 
     def is_open(self, checker: Checker, q: Array) -> bool:
         """Whether the arm can draw in from a configuration at once: from there all is near."""
@@ -131,7 +144,7 @@ class FreePlanner:
         kinematics = self._kinematics
         axes = Axes(checker.reach, self._speed, kinematics.lower, kinematics.upper, STEP)
         short = shorten(checker.case, axes, path, TRIES, effort.seed)
-        return _without_straights(short)
+        return _without_straights(pull(checker.case, axes, short))
 
     def _found(self, path: Array, how: str) -> Found:
         return Found(path, how, span(path[0], path[-1], self._speed), self._length(path))

@@ -75,5 +75,8 @@ def level_sample(lower: Array, upper: Array, levels: Array, dims: Array, stream:
     q[3] = -math.atan2(flip * m[1, 0], -flip * m[2, 0])
     q[5] = -math.atan2(flip * m[0, 1], flip * m[0, 2])
     for axis in range(3, 6):
+        wound = q[axis] + 2 * math.pi * (int(3 * uniform(stream)) - 1)  # axes 4 and 6 turn twice
+        if lower[axis] <= wound <= upper[axis]:
+            q[axis] = wound
         q[axis] = min(max(q[axis], lower[axis]), upper[axis])
     return q

@@ -4,15 +4,14 @@ Distances are times: the axis that takes longest at full speed. Samples hold the
 held box has to stay upright, for at random hardly any does.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 import numpy.typing as npt
 
-from depal.geometry import kernel, loop_kernel
+from depal.geometry import kernel
 from depal.motion.collision.checking import Case, edge_is_free
 from depal.motion.collision.values import Array
-from depal.motion.planning.samples import level_sample, stream_of, uniform
+from depal.motion.planning.axes import Axes, span
+from depal.motion.planning.samples import level_sample, stream_of
 
 Integers = npt.NDArray[np.int64]
 
@@ -20,33 +19,6 @@ TRAPPED, ADVANCED, REACHED = 0, 1, 2
 
 REACH = 0.6
 """A branch grows by this much at once [s at full speed]."""
-
-
-class Axes(NamedTuple):
-    """What a search needs to know of the arm's axes.
-
-    Attributes:
-        reach: (6,) bound of how far from each axis anything is that it moves [m].
-        speed: (6,) [rad/s].
-        lower: (6,) [rad].
-        upper: (6,) [rad].
-        step: of the checks along edges [m].
-    """
-
-    reach: Array
-    speed: Array
-    lower: Array
-    upper: Array
-    step: float
-
-
-@loop_kernel
-def span(a: Array, b: Array, speed: Array) -> float:
-    """The time of the straight joint line between two configurations at full speed [s]."""
-    most = 0.0
-    for axis in range(6):
-        most = max(most, abs(a[axis] - b[axis]) / speed[axis])
-    return most
 
 
 @kernel
@@ -151,46 +123,3 @@ def _joined(trees: Array, parents: Integers, ends: Integers) -> Array:
         path[row] = trees[1, k]
         k, row = parents[1, k], row + 1
     return path
-
-
-@kernel
-def shorten(case: Case, axes: Axes, path: Array, tries: int, seed: int) -> Array:
-    """A path with its detours cut off: straight joint lines between random points of it."""
-    stream = stream_of(seed)
-    points = path.copy()
-    for _ in range(tries):
-        n = len(points)
-        if n < 3:  # noqa: PLR2004 - nothing to cut
-            return points
-        lengths = np.zeros(n)
-        for k in range(1, n):
-            lengths[k] = lengths[k - 1] + span(points[k - 1], points[k], axes.speed)
-        total = lengths[n - 1]
-        s, e = total * uniform(stream), total * uniform(stream)
-        if s > e:
-            s, e = e, s
-        i = min(max(np.searchsorted(lengths, s, side="right") - 1, 0), n - 2)
-        j = min(max(np.searchsorted(lengths, e, side="right") - 1, 0), n - 2)
-        if i == j:
-            continue
-        a = _between(points, lengths, i, s)
-        b = _between(points, lengths, j, e)
-        if span(a, b, axes.speed) > 0.999 * (e - s):
-            continue
-        if not edge_is_free(case, a, b, axes.reach, axes.step):
-            continue
-        cut = np.empty((i + 1 + 2 + n - 1 - j, 6))
-        cut[: i + 1] = points[: i + 1]
-        cut[i + 1] = a
-        cut[i + 2] = b
-        cut[i + 3 :] = points[j + 1 :]
-        points = cut
-    return points
-
-
-@kernel
-def _between(points: Array, lengths: Array, k: int, s: float) -> Array:
-    part = lengths[k + 1] - lengths[k]
-    u = (s - lengths[k]) / part if part > 0.0 else 0.0
-    between: Array = points[k] + (points[k + 1] - points[k]) * u
-    return between

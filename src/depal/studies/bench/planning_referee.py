@@ -1,6 +1,7 @@
-"""The same shapes in MuJoCo, which says by itself what touches what."""
+"""The planner's shapes in MuJoCo, which says by itself what touches what."""
 
 import math
+from collections.abc import Iterable
 
 import mujoco
 import numpy as np
@@ -10,7 +11,7 @@ from depal.domain import CellLayout
 from depal.geometry import OrientedBox
 from depal.simulation.parts import BODY, add_arm, add_solid, arm_exclusions
 
-FRICTION = [0.5, 0.005, 0.0001]
+_FRICTION = [0.5, 0.005, 0.0001]
 
 
 class Referee:
@@ -19,29 +20,36 @@ class Referee:
     def __init__(
         self,
         layout: CellLayout,
-        scene: list[OrientedBox],
+        scene: Iterable[OrientedBox],
         held: OrientedBox | None = None,
         *,
         folded: bool = False,
     ) -> None:
-        """Compiles the model; the held box is in the flange's frame."""
+        """Compiles the model.
+
+        Args:
+            layout: the cell; its arm and tool are taken.
+            scene: what stands around, in the cell frame.
+            held: a held box in the flange's frame.
+            folded: whether the lower module is hinged up.
+        """
         spec = mujoco.MjSpec()
         spec.worldbody.add_geom(
-            name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], friction=FRICTION
+            name="floor", type=mujoco.mjtGeom.mjGEOM_PLANE, size=[0, 0, 1], friction=_FRICTION
         )
         for solid in scene:
-            add_solid(spec.worldbody, solid, FRICTION)
+            add_solid(spec.worldbody, solid, _FRICTION)
         add_arm(spec, layout.robot, layout.tool)
         hand = spec.body("tool")
+        apart = arm_exclusions()
         if held is not None:
-            body = hand.add_body(name="held", pos=(0, 0, 0))
-            geom = add_solid(body, held, FRICTION)
+            geom = add_solid(hand.add_body(name="held"), held, _FRICTION)
             geom.contype, geom.conaffinity = BODY["contype"], BODY["conaffinity"]
+            apart += [("tool", "held"), ("link_6", "held"), ("link_5", "held")]
         for geom in hand.geoms:
             if geom.name.startswith("unfolded" if folded else "folded"):
                 geom.contype = geom.conaffinity = 0
-        near = [("tool", "held"), ("link_6", "held"), ("link_5", "held")]
-        for first, second in arm_exclusions() + (near if held is not None else []):
+        for first, second in apart:
             spec.add_exclude(bodyname1=first, bodyname2=second)
         self._model = spec.compile()
         self._data = mujoco.MjData(self._model)
@@ -56,5 +64,4 @@ class Referee:
         self._data.qpos[self._axes] = q
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_collision(self._model, self._data)
-        contacts = self._data.contact
-        return float(contacts.dist.min()) if self._data.ncon else math.inf
+        return float(self._data.contact.dist.min()) if self._data.ncon else math.inf

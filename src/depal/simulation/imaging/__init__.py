@@ -1,0 +1,1 @@
+"""Pictures of the simulated cell: a software rasteriser, printed boxes, reader and camera."""

@@ -1,0 +1,147 @@
+"""A whole cell as triangles, at any moment of its world."""
+
+import numpy as np
+import numpy.typing as npt
+
+from depal.domain import CellLayout, Storage, Tool
+from depal.domain.robot import LINKS
+from depal.geometry import OrientedBox
+from depal.simulation.cases import Case
+from depal.simulation.imaging import furniture
+from depal.simulation.imaging.atlas import Atlas, AtlasBuilder
+from depal.simulation.imaging.mesh import Mesh, capsule, cuboid, joined
+from depal.simulation.imaging.prints import PrintedBoxes
+from depal.simulation.world import Snapshot, World
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+
+CUP_LENGTH = 0.03
+"""A bellows reaches so far from its plate to the plane of touch [m]."""
+
+
+class CellScene:
+    """Everything in a cell, its boxes printed; made once, then asked for any moment.
+
+    Attributes:
+        atlas: all textures.
+        boxes: how many boxes there are; box i is part i in pictures.
+        backs: the part of each storage's back panels, by the storage's name.
+    """
+
+    def __init__(self, layout: CellLayout, cases: tuple[Case, ...]) -> None:
+        """Draws the prints of all cases."""
+        self.boxes = len(cases)
+        self._layout = layout
+        builder = AtlasBuilder()
+        prints = PrintedBoxes(builder)
+        meshes = [prints.mesh(case.gtin, case.shape.size, i) for i, case in enumerate(cases)]
+        arm = self.boxes
+        self._unfolded, self._folded = arm + len(LINKS), arm + len(LINKS) + 1
+        meshes += _arm(layout, builder, arm)
+        dark, rubber = builder.plain((62, 66, 74)), builder.plain((38, 40, 44))
+        for folded, part in ((False, self._unfolded), (True, self._folded)):
+            meshes += _tool(layout.tool, dark, rubber, part, folded=folded)
+        still = self._folded + 1
+        meshes += _still(layout, builder, still)
+        self._bays = {s.id: still + 1 + 2 * i for i, s in enumerate(layout.storages)}
+        self.backs = {name: part + 1 for name, part in self._bays.items()}
+        skins = {"trolley": builder.plain((150, 166, 186)), "shelf": builder.plain((172, 178, 176))}
+        for shelf in layout.storages:
+            meshes.append(_storage(shelf, skins[shelf.kind.value], self._bays[shelf.id]))
+        self._mesh = joined(meshes)
+        self._parts = still + 1 + 2 * len(layout.storages)
+        self.atlas: Atlas = builder.build()
+
+    def at(self, snapshot: Snapshot) -> Mesh:
+        """Everything that is there at that moment, in the cell frame."""
+        turns = np.broadcast_to(np.eye(3), (self._parts, 3, 3)).copy()
+        shifts = np.zeros((self._parts, 3))
+        moving = np.concatenate((snapshot.boxes, snapshot.arm, snapshot.arm[-1:]))
+        turns[: len(moving)] = rotations(moving[:, 3:])
+        shifts[: len(moving)] = moving[:, :3]
+        gone = [*snapshot.removed, self._unfolded if snapshot.folded else self._folded]
+        for name, trolley in snapshot.bays.items():
+            if trolley is None:
+                gone += [self._bays[name], self.backs[name]]
+        return self._mesh.without(np.array(gone)).placed(turns, shifts)
+
+    def mobile(self, mesh: Mesh) -> Mesh:
+        """Of a moment's triangles the boxes, the arm and the tool alone."""
+        return mesh.without(np.arange(self._folded + 1, self._parts))
+
+
+class Stage:
+    """The scene of a world, drawn when somebody first looks; reader and camera share it."""
+
+    def __init__(self, world: World) -> None:
+        """Nothing is drawn yet."""
+        self.world = world
+        self._scene: CellScene | None = None
+
+    @property
+    def scene(self) -> CellScene:
+        """Everything in the world's cell."""
+        if self._scene is None:
+            self._scene = CellScene(self.world.layout, self.world.cases)
+        return self._scene
+
+    def now(self) -> Mesh:
+        """The world as it stands."""
+        return self.scene.at(self.world.snapshot())
+
+
+def rotations(quaternions: Floats) -> Floats:
+    """(n, 3, 3) of unit quaternions (n, 4), w first."""
+    w, x, y, z = quaternions.T
+    rows = [
+        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
+    ]
+    return np.asarray(np.array(rows).transpose(2, 0, 1))
+
+
+def _arm(layout: CellLayout, builder: AtlasBuilder, part: int) -> list[Mesh]:
+    orange, grey = builder.plain((232, 122, 44)), builder.plain((74, 78, 86))
+    last = len(LINKS) - 1
+    return [
+        capsule(
+            shape.start,
+            shape.end,
+            shape.radius,
+            grey if shape.link in {0, last} else orange,
+            part + shape.link,
+        )
+        for shape in layout.robot.shapes
+    ]
+
+
+def _tool(tool: Tool, skin: int, rubber: int, part: int, *, folded: bool) -> list[Mesh]:
+    shapes = tool.folded_shapes if folded else tool.shapes
+    meshes = [cuboid(shape.size, (skin,), part).moved(shape.pose) for shape in shapes]
+    radius = tool.suction.cup_radius * 0.8
+    for name in [module.name for module in tool.modules]:
+        module = tool.module(name, folded=folded)
+        meshes += [
+            capsule((-CUP_LENGTH, y, z), (-radius, y, z), radius, rubber, part).moved(
+                module.flange_from_face
+            )
+            for y, z in module.cups
+        ]
+    return meshes
+
+
+def _still(layout: CellLayout, builder: AtlasBuilder, part: int) -> list[Mesh]:
+    ground, line = builder.plain((222, 221, 216)), builder.plain((226, 190, 70))
+    wood, metal = builder.plain((196, 164, 118)), builder.plain((96, 100, 108))
+    fixtures: list[OrientedBox] = list(layout.fixtures)
+    return [
+        furniture.floor(layout, ground, line, part),
+        furniture.pallet(layout.pallet, wood, part),
+        *(furniture.solid(shape, metal, part) for shape in fixtures),
+    ]
+
+
+def _storage(shelf: Storage, skin: int, part: int) -> Mesh:
+    return furniture.storage(shelf, skin, part, part + 1)
