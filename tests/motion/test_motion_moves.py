@@ -150,6 +150,9 @@ def test_a_box_goes_into_a_place_without_a_contact_and_the_hand_comes_out(
         CELL, [*job.solids, OrientedBox(berth.target, job.box.size)], folded=pick.grasp.folded
     )
     assert all(standing.nearest(q) > 0.0 for q in finely(put.retreat.path))
+    with_box = scene.with_case("b", OrientedBox(berth.target, job.box.size))
+    for folded in (False, True):  # the next box may want the other
+        assert MOVER.checker(with_box, OPEN, folded=folded).free(put.retreat.path[-1])
     begin = MOVER.body.kinematics.frames(put.retreat.path[0])[6]
     stands = berth.target @ pick.grasp.box_from_flange
     assert np.allclose(begin[:, 3], stands.translation, atol=1e-9)
@@ -217,6 +220,20 @@ def test_a_box_behind_and_under_others_names_what_is_in_the_way() -> None:
     assert isinstance(found, NoMotion)
     assert any("against roof" in reason for reason in found.reasons)
     assert any("against wall" in reason for reason in found.reasons)
+    for way in job.grasps:
+        assert MOVER.why_no_pick(PARKED, box, way, job.scene, "b")
+
+
+def test_a_grasp_that_is_of_use_has_nothing_against_it() -> None:
+    """What `why_no_pick` says is what `pick` finds."""
+    job = JOBS[12]
+    told = [not MOVER.why_no_pick(PARKED, job.box, way, job.scene, "b") for way in job.grasps]
+    found = [
+        isinstance(MOVER.pick(PARKED, job.box, [way], job.scene, "b", Effort()), Pick)
+        for way in job.grasps
+    ]
+    assert told == found
+    assert 0 < sum(told) < len(told)
 
 
 def test_a_spot_behind_another_box_is_refused_with_its_name() -> None:

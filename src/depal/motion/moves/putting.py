@@ -142,7 +142,10 @@ def _options(
 
 
 def _retreat(reach: Reach, q: Array, berth: Berth, scene: Scene) -> Array | str:
-    """Straight out with an empty hand until the tool is clear of everything."""
+    """Straight out with an empty hand, until the tool is clear and has room to be folded."""
     with_box = scene.with_case("the box", OrientedBox(berth.target, berth.size))
-    near = reach.checker(with_box, LEAVING, folded=berth.grasp.folded)
-    return reach.way_out(q, berth.outward, near, near.with_margins(OPEN), round(AFTER / PITCH))
+    folded = berth.grasp.folded
+    near = reach.checker(with_box, LEAVING, folded=folded)
+    other = reach.checker(with_box, OPEN, folded=not folded)
+    least = round(AFTER / PITCH)
+    return reach.way_out(q, berth.outward, near, near.with_margins(OPEN), least, other)

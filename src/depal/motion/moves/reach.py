@@ -56,7 +56,13 @@ class Reach:
         return found[np.argsort(times, kind="stable")]
 
     def way_out(
-        self, start: Array, way: Vector3, near: Checker, clear: Checker, least: int = 0
+        self,
+        start: Array,
+        way: Vector3,
+        near: Checker,
+        clear: Checker,
+        least: int = 0,
+        also: Checker | None = None,
     ) -> Array | str:
         """Straight along a direction until all is clear and the arm can draw in.
 
@@ -65,7 +71,8 @@ class Reach:
             way: the direction, of length 1.
             near: must hold all along.
             clear: must hold at the end.
-            least: how many configurations it has at least.
+            least: how many steps it has at least.
+            also: must hold at the end as well: for another shape of the hand.
 
         Returns:
             (n, 6) [rad], or why there is no such way.
@@ -79,6 +86,8 @@ class Reach:
         blocked = near.first_hit(path)
         last = len(path) if blocked is None else blocked
         for end in range(least + row, last, STRIDE):
+            if also is not None and not also.free(path[end]):
+                continue
             if clear.free(path[end]) and self.free.is_open(clear, path[end]):
                 return path[: end + 1].copy()
         return "no room to draw the arm in" if blocked is None else near.why(path[blocked])

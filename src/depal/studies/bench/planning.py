@@ -3,6 +3,7 @@
 import math
 import time
 from collections.abc import Callable, Iterable
+from itertools import islice
 from statistics import median
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy.typing as npt
 from depal.cell.files import shipped_cell
 from depal.domain import CellLayout
 from depal.geometry import OrientedBox, Pose, kernel
-from depal.logistics import shipped_deliveries
+from depal.logistics import read_delivery, shipped_deliveries
 from depal.motion.collision import STEP, Body, Checker, Hand, Margins, Scene, fixed_solids
 from depal.motion.collision.checking import Case, first_hit
 from depal.motion.kinematics import Kinematics, keep_within, rows_of, solve_branches
@@ -28,7 +29,7 @@ CONFIGURATIONS = 10_000
 """So many are compared with MuJoCo."""
 
 DELIVERIES = ("dev-018", "dev-000", "dev-030")
-"""Whose boxes are picked and put away; the shipped ones among them are taken."""
+"""Shipped ones whose boxes are picked and put away."""
 
 _TOUCHING = Margins(0.0, 0.0, 0.0, 0.0, 0.0)
 _HELD = OrientedBox(Pose((0.37, 0.02, -0.03)), (0.34, 0.27, 0.22))
@@ -36,15 +37,18 @@ _HANGING = OrientedBox(Pose((0.12, -0.01, -0.34)), (0.30, 0.40, 0.28))
 _VARIANTS = ((None, False), (None, True), (_HELD, False), (_HELD, True), (_HANGING, False))
 _DEEP = 1e-6
 _NO_WAY = "no free way"
-_PEER_QUERIES, _PEER_LIMIT = 60, 1.0
+_PEER_QUERIES, _PEER_LIMIT = 40, 1.0
 
 
-def bench_planning(seed: int = 0, progress: Progress = no_progress) -> list[Figure]:
+def bench_planning(
+    seed: int = 0, progress: Progress = no_progress, *, deliveries: int = len(DELIVERIES)
+) -> list[Figure]:
     """Measures every figure of planning.
 
     Args:
         seed: of random configurations and of the planner.
         progress: told how far it is.
+        deliveries: so many of `DELIVERIES` are emptied.
 
     Returns:
         The figures.
@@ -53,7 +57,7 @@ def bench_planning(seed: int = 0, progress: Progress = no_progress) -> list[Figu
     measures: list[Callable[[], list[Figure]]] = [
         lambda: kinematics_figures(Kinematics(layout.robot), seed),
         lambda: collision_figures(layout, seed),
-        lambda: motion_figures(layout, seed),
+        lambda: motion_figures(layout, seed, deliveries),
     ]
     figures: list[Figure] = []
     for done, measure in enumerate(measures):
@@ -164,11 +168,10 @@ def turned(yaw: float, pitch: float, roll: float) -> Floats:
     return turn
 
 
-def motion_figures(layout: CellLayout, seed: int) -> list[Figure]:
+def motion_figures(layout: CellLayout, seed: int, count: int) -> list[Figure]:
     """Every pick and every put of real deliveries, planned one after the other."""
-    chosen = [one for one in shipped_deliveries() if one.id in DELIVERIES]
-    chosen = chosen or list(shipped_deliveries()[:3])
-    for _ in Emptying(layout, chosen[0], seed).motions():  # compiles
+    chosen = [read_delivery(name) for name in DELIVERIES[:count]]
+    for _ in islice(Emptying(layout, chosen[0], seed).motions(), 8):  # compiles
         pass
     motions: list[Motion] = []
     for delivery in chosen:
