@@ -22,7 +22,7 @@ from depal.executive.engine import Call, Engine
 from depal.executive.journal import Journal
 from depal.executive.runtime import Primitive, Runtime
 from depal.executive.schema import Repository
-from depal.ports import Question
+from depal.ports import TAKEN, Question
 
 STORE, ASIDE = "store", "set_aside"
 
@@ -122,7 +122,7 @@ class Controller:
         question = Question(
             f"hand/{box}",
             f"The arm cannot put box {box} down: {fault}. Please take it out of the gripper.",
-            ("taken",),
+            (TAKEN,),
             str(box),
         )
         await self.work.questions.ask(question)

@@ -12,11 +12,12 @@ from depal.ports.devices import (
     Safety,
     SafetyState,
 )
-from depal.ports.people import Movement, Person, Question, StoreSystem
+from depal.ports.people import TAKEN, Movement, Person, Question, StoreSystem
 from depal.ports.sight import Sight, View
 from depal.ports.trajectory import Trajectory
 
 __all__ = [
+    "TAKEN",
     "Arm",
     "BarcodeReader",
     "Bays",

@@ -6,6 +6,10 @@ from typing import Protocol
 from depal.domain import BoxId, Gtin, PlaceId
 
 
+TAKEN = "taken"
+"""The answer that promises: the person has taken the box that it is about out of the cell."""
+
+
 @dataclass(frozen=True, slots=True)
 class Question:
     """Something that only a person can say or do.

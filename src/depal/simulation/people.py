@@ -8,7 +8,7 @@ import numpy as np
 from depal.domain import BoxId, StorageKind
 from depal.executive.clock import Clock
 from depal.geometry import Pose
-from depal.ports import Question
+from depal.ports import TAKEN, Question
 from depal.simulation.referee import ELSEWHERE, FLOOR, Referee
 from depal.simulation.world import World
 
@@ -40,7 +40,8 @@ class SimulatedPerson:
     """A worker who comes after a while and does what the answer promises.
 
     The answer to a question about a trolley that is the first of its choices means that the
-    trolley is exchanged. A box on the floor that a question is about is picked up and taken away.
+    trolley is exchanged; `TAKEN` means that the box is taken away, wherever it is. A box on the
+    floor that a question is about is picked up in any case.
     """
 
     def __init__(
@@ -76,7 +77,7 @@ class SimulatedPerson:
         if self._is_trolley(question.about) and answer == question.choices[0]:
             await self._exchange(question.about)
         else:
-            self._pick_up(question.about)
+            self._pick_up(question.about, anywhere=answer == TAKEN)
         return answer
 
     def _is_trolley(self, name: str) -> bool:
@@ -95,9 +96,11 @@ class SimulatedPerson:
         self._trolleys += 1
         self._world.show_storage(bay, trolley=f"{bay}#{self._trolleys + 1}")
 
-    def _pick_up(self, name: str) -> None:
+    def _pick_up(self, name: str, *, anywhere: bool) -> None:
         index = index_of(name, len(self._world.cases))
-        if index is not None and self._referee.where(index) in {FLOOR, ELSEWHERE}:
+        if index is None or index in self._world.removed:
+            return
+        if anywhere or self._referee.where(index) in {FLOOR, ELSEWHERE}:
             self._take_away(index)
 
     def _take_away(self, index: int) -> None:

@@ -4,9 +4,7 @@ from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report
 from depal.executive.runtime import Context
-from depal.ports import Question
-
-PICKED_UP = "picked up"
+from depal.ports import TAKEN, Question
 
 
 class Minding:
@@ -46,7 +44,7 @@ class Minding:
         box = context.args["Box"]
         fault = context.facts.get(f"{box}.fault") or "it lies on the floor"
         question = Question(
-            f"decision/{box}", f"Box {box}: {fault}. Please pick it up.", (PICKED_UP,), box
+            f"decision/{box}", f"Box {box}: {fault}. Please pick it up.", (TAKEN,), box
         )
         answer = await self._work.questions.ask(question)
         return Report(((f"{box}.decision", answer),))

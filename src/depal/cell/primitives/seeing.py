@@ -9,7 +9,7 @@ from depal.domain import BoxId, Recognition
 from depal.executive.engine import Call, Report
 from depal.executive.events import Change
 from depal.executive.runtime import Context
-from depal.ports import Question
+from depal.ports import TAKEN, Question
 from depal.selection import Outcome as Selected
 
 
@@ -67,7 +67,7 @@ class Seeing:
         question = Question(
             f"take/{box.id}",
             f"The arm cannot take box {box.id}: {reason}. Please take it off the pallet.",
-            ("done",),
+            (TAKEN,),
             str(box.id),
         )
         await self._work.questions.ask(question)

@@ -1,11 +1,16 @@
 """The still parts of a cell as triangles: floor, fence line, pallet, storages, fixtures."""
 
+from dataclasses import dataclass
+
 from depal.domain import CellLayout, PalletStand, Storage
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import OrientedBox, Pose, Vector3
 from depal.simulation.imaging.mesh import Mesh, cuboid, joined, rectangle
 
 FENCE = 0.05
 """Width of the line on the floor where the fence stands [m]."""
+
+BEYOND = 0.12
+"""The floor is drawn so far beyond the fence [m]."""
 
 FACE_DOWN = ((1.0, 0.0, 0.0), (0.0, -1.0, 0.0), (0.0, 0.0, -1.0))
 """Turns a rectangle so that it is seen from above."""
@@ -23,7 +28,6 @@ def floor(layout: CellLayout, ground: int, line: int, part: int) -> Mesh:
     """The floor up to the fence and a little beyond, and the fence's line."""
     (x0, y0), (x1, y1) = layout.floor
     middle, size = ((x0 + x1) / 2, (y0 + y1) / 2), (x1 - x0, y1 - y0)
-    beyond = 0.3
 
     def flat(x: float, y: float, z: float, along: float, across: float, skin: int) -> Mesh:
         return rectangle(Pose((x, y, z), FACE_DOWN), (along, across), skin, part)
@@ -31,7 +35,7 @@ def floor(layout: CellLayout, ground: int, line: int, part: int) -> Mesh:
     above, longer = 0.002, size[0] + FENCE
     return joined(
         [
-            flat(*middle, 0.0, size[0] + 2 * beyond, size[1] + 2 * beyond, ground),
+            flat(*middle, 0.0, size[0] + 2 * BEYOND, size[1] + 2 * BEYOND, ground),
             flat(middle[0], y0, above, longer, FENCE, line),
             flat(middle[0], y1, above, longer, FENCE, line),
             flat(x0, middle[1], above, FENCE, size[1], line),
@@ -56,19 +60,54 @@ def pallet(stand: PalletStand, skin: int, part: int) -> Mesh:
     return boards.moved(stand.cell_from_pallet)
 
 
-def storage(shelf: Storage, skin: int, part: int, back: int | None = None) -> Mesh:
+@dataclass(frozen=True, slots=True)
+class Wall:
+    """The back or a side of a storage.
+
+    Attributes:
+        part: its number in pictures.
+        at: its middle [m].
+        outward: unit normal away from what is stored.
+        back: whether it is the back.
+    """
+
+    part: int
+    at: Vector3
+    outward: Vector3
+    back: bool
+
+
+def storage(shelf: Storage, skin: int, part: int) -> tuple[Mesh, tuple[Wall, ...]]:
     """The panels of a trolley or a shelf.
 
     Args:
         shelf: which.
         skin: its colour.
-        part: its number in pictures.
-        back: the number of those panels that stand at its back, the same where nothing is said.
+        part: its number in pictures; its walls have the numbers after it.
+
+    Returns:
+        The panels, and which of them are walls.
     """
-    depth = shelf.size[1]
-    meshes = []
+    meshes, walls = list[Mesh](), list[Wall]()
+    turn = Pose(rotation=shelf.cell_from_storage.rotation)
     for panel in shelf.panels:
-        at_back = panel.centre[0] > depth * 0.8 and panel.size[0] < depth / 2
-        own = back if back is not None and at_back else part
-        meshes.append(solid(panel.seen_from(shelf.cell_from_storage), skin, own))
-    return joined(meshes)
+        placed = panel.seen_from(shelf.cell_from_storage)
+        outward = _outward(panel, shelf.size)
+        own = part
+        if outward is not None:
+            own = part + 1 + len(walls)
+            walls.append(Wall(own, placed.centre, turn.apply(outward), back=outward[0] > 0.0))
+        meshes.append(solid(placed, skin, own))
+    return joined(meshes), tuple(walls)
+
+
+def _outward(panel: OrientedBox, size: Vector3) -> Vector3 | None:
+    """Where the outside of a wall is, in the storage's frame; None where it is no wall."""
+    width, depth, height = size
+    if panel.size[2] < height / 2:
+        return None
+    if panel.size[0] < depth / 4 and panel.centre[0] > depth / 2:
+        return (1.0, 0.0, 0.0)
+    if panel.size[1] < width / 4:
+        return (0.0, 1.0 if panel.centre[1] > 0.0 else -1.0, 0.0)
+    return None

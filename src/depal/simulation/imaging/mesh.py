@@ -67,7 +67,13 @@ class Mesh:
 
     def without(self, parts: Ints) -> "Mesh":
         """The triangles of all other parts."""
-        kept = ~np.isin(self.parts, parts)
+        return self._chosen(~np.isin(self.parts, parts))
+
+    def only(self, parts: Ints) -> "Mesh":
+        """The triangles of these parts."""
+        return self._chosen(np.isin(self.parts, parts))
+
+    def _chosen(self, kept: npt.NDArray[np.bool_]) -> "Mesh":
         return Mesh(
             self.corners[kept],
             self.normals[kept],

@@ -58,7 +58,7 @@ class SimulatedReader:
         random = np.random.default_rng([world.seed, 6, self._readings])
         self._readings += 1
         noise = NOISE * random.standard_normal(grey.shape, dtype=np.float32)
-        return np.clip(grey + noise, 0, 255).astype(np.uint8)
+        return np.asarray(np.clip(grey + noise, 0, 255), dtype=np.uint8)
 
 
 def lens_of(mount: ReaderMount) -> Lens:

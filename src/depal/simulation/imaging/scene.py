@@ -3,7 +3,7 @@
 import numpy as np
 import numpy.typing as npt
 
-from depal.domain import CellLayout, Storage, Tool
+from depal.domain import CellLayout, Tool
 from depal.domain.robot import LINKS
 from depal.geometry import OrientedBox
 from depal.simulation.cases import Case
@@ -26,7 +26,7 @@ class CellScene:
     Attributes:
         atlas: all textures.
         boxes: how many boxes there are; box i is part i in pictures.
-        backs: the part of each storage's back panels, by the storage's name.
+        walls: backs and sides of the storages.
     """
 
     def __init__(self, layout: CellLayout, cases: tuple[Case, ...]) -> None:
@@ -44,13 +44,17 @@ class CellScene:
             meshes += _tool(layout.tool, dark, rubber, part, folded=folded)
         still = self._folded + 1
         meshes += _still(layout, builder, still)
-        self._bays = {s.id: still + 1 + 2 * i for i, s in enumerate(layout.storages)}
-        self.backs = {name: part + 1 for name, part in self._bays.items()}
         skins = {"trolley": builder.plain((150, 166, 186)), "shelf": builder.plain((172, 178, 176))}
+        self._bays: dict[str, range] = {}
+        self._parts, walls = still + 1, list[furniture.Wall]()
         for shelf in layout.storages:
-            meshes.append(_storage(shelf, skins[shelf.kind.value], self._bays[shelf.id]))
+            mesh, sides = furniture.storage(shelf, skins[shelf.kind.value], self._parts)
+            self._bays[shelf.id] = range(self._parts, self._parts + 1 + len(sides))
+            self._parts = self._bays[shelf.id].stop
+            meshes.append(mesh)
+            walls += sides
+        self.walls = tuple(walls)
         self._mesh = joined(meshes)
-        self._parts = still + 1 + 2 * len(layout.storages)
         self.atlas: Atlas = builder.build()
 
     def at(self, snapshot: Snapshot) -> Mesh:
@@ -63,7 +67,7 @@ class CellScene:
         gone = [*snapshot.removed, self._unfolded if snapshot.folded else self._folded]
         for name, trolley in snapshot.bays.items():
             if trolley is None:
-                gone += [self._bays[name], self.backs[name]]
+                gone += self._bays[name]
         return self._mesh.without(np.array(gone)).placed(turns, shifts)
 
     def mobile(self, mesh: Mesh) -> Mesh:
@@ -141,7 +145,3 @@ def _still(layout: CellLayout, builder: AtlasBuilder, part: int) -> list[Mesh]:
         furniture.pallet(layout.pallet, wood, part),
         *(furniture.solid(shape, metal, part) for shape in fixtures),
     ]
-
-
-def _storage(shelf: Storage, skin: int, part: int) -> Mesh:
-    return furniture.storage(shelf, skin, part, part + 1)
