@@ -2,9 +2,7 @@
 
 import asyncio
 
-import cv2
 import numpy as np
-import numpy.typing as npt
 
 from depal.domain import CameraMount
 from depal.executive.clock import Clock
@@ -13,13 +11,11 @@ from depal.simulation.imaging.depth_noise import DepthNoise, measured
 from depal.simulation.imaging.lens import Lens, Light
 from depal.simulation.imaging.raster import render
 from depal.simulation.imaging.scene import Stage
+from depal.simulation.imaging.sensor import sensed
 from depal.simulation.imaging.shadows import add_shadows
 
 EXPOSURE = 0.5
 """One picture takes so long [s]."""
-
-BLUR = 0.6
-"""The lens spreads a point over so many pixels, as a Gauss curve's width."""
 
 GRAIN = 2.0
 """Standard deviation of a pixel's colour values."""
@@ -73,16 +69,9 @@ class SimulatedCamera:
         deep = render(mesh, atlas, depth_lens)
         return Frame(
             taken,
-            _grainy(seen.colour, random),
+            sensed(seen.colour, GRAIN, random),
             measured(deep, depth_lens, self._noise, random),
             colour_lens.k,
             depth_lens.k,
             mount.cell_from_camera,
         )
-
-
-def _grainy(colour: npt.NDArray[np.uint8], random: np.random.Generator) -> npt.NDArray[np.uint8]:
-    """A little out of focus, and every pixel a little off."""
-    soft = cv2.GaussianBlur(colour, (0, 0), BLUR).astype(np.float32)
-    noise = GRAIN * random.standard_normal(colour.shape, dtype=np.float32)
-    return np.asarray(np.clip(soft + noise, 0, 255), dtype=np.uint8)
