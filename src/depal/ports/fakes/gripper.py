@@ -1,7 +1,7 @@
 """A gripper whose vacuum comes and breaks as a test says."""
 
 import asyncio
-import math
+from math import inf
 from dataclasses import dataclass, field
 
 from depal.domain import Cup
@@ -24,7 +24,7 @@ class FakeGripper:
     breaks: dict[int, float] = field(default_factory=dict)
     weight: float = 4.0
     grips: list[tuple[Cup, ...]] = field(default_factory=list)
-    until: float = -math.inf
+    until: float = -inf
     up: bool = False
 
     def load(self) -> float:
@@ -49,7 +49,7 @@ class FakeGripper:
         """Makes vacuum, or not; a hand that is full is refused."""
         if self.load():
             raise DeviceError("the gripper holds a box already")
-        lasts = self.breaks.get(len(self.grips), math.inf)
+        lasts = self.breaks.get(len(self.grips), inf)
         self.grips.append(cups)
         self.until = asyncio.get_running_loop().time() + lasts
         await asyncio.sleep(RISE)
@@ -58,4 +58,4 @@ class FakeGripper:
     async def release(self) -> None:
         """Vents."""
         await asyncio.sleep(VENT)
-        self.until = -math.inf
+        self.until = -inf
