@@ -16,16 +16,20 @@ from depal.motion.collision.checking import (
     TILT,
     Case,
     Margins,
-    edge_is_free,
     first_free_along,
     first_hit,
     first_hit_along,
 )
+from depal.motion.collision.edges import edge_is_free
+from depal.motion.collision.rubbing import overlaps
 from depal.motion.collision.values import Arm, Array, Hand, Scene, arm_of
 from depal.motion.kinematics import Kinematics
 
 STEP = 0.02
 """No point of the arm moves further between two checks [m]."""
+
+DEEPEST = 0.03
+"""Boxes whose poses are known badly do not seem to overlap by more [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +76,19 @@ class Checker:
         scene: Scene,
         margins: Margins,
         upright: Upright | None = None,
+        rubbed: Array | None = None,
     ) -> None:
-        """For one hand in one scene."""
+        """For one hand in one scene.
+
+        Args:
+            body: the arm.
+            hand: the tool and what it holds.
+            scene: what stands around.
+            margins: how far things stay apart.
+            upright: how a held box may lean.
+            rubbed: (n,) how deep a held box may reach into each case [m]; by the margin for cases
+                if left out.
+        """
         self._upright = upright
         self._body = body
         self._hand = hand
@@ -85,17 +100,33 @@ class Checker:
             hand.solids,
             hand.holding,
             solids,
-            scene.pile,
+            np.where(scene.pile, margins.pile if rubbed is None else -rubbed, margins.held),
             body.fence,
             margins,
             np.array(upright.up if upright else (0.0, 0.0, 1.0)),
             math.cos(upright.tilt) if upright else -2.0,
         )
-        self.reach = reaches(body, hand)
 
     def with_margins(self, margins: Margins) -> "Checker":
         """The same with other margins."""
         return Checker(self._body, self._hand, self._scene, margins, self._upright)
+
+    def rubbing(self, joints: Array, more: float) -> "Checker":
+        """The same, but a held box may reach no deeper into a case than it seems to already.
+
+        Args:
+            joints: (6,) where the box stands among others, with the errors of their poses [rad].
+            more: so much deeper it may reach [m].
+        """
+        seems = overlaps(self.case, np.asarray(joints, dtype=np.float64), DEEPEST)
+        return Checker(
+            self._body,
+            self._hand,
+            self._scene,
+            self.case.margins,
+            self._upright,
+            np.minimum(seems + more, -self.case.margins.pile),
+        )
 
     def free(self, joints: Array) -> bool:
         """Whether nothing is touched."""
@@ -117,7 +148,7 @@ class Checker:
 
     def edge_free(self, start: Array, end: Array, step: float = STEP) -> bool:
         """Whether the straight joint line between two configurations is free."""
-        return bool(edge_is_free(self.case, start, end, self.reach, step))
+        return bool(edge_is_free(self.case, start, end, step))
 
     def why(self, joints: Array) -> str:
         """What touches what, in words; empty where nothing does."""
@@ -145,13 +176,3 @@ class Checker:
         if what >= ITSELF:
             return f"{mover} against link {self._body.arm.link[what - ITSELF]}"
         return f"{mover} against {self._scene.names[what]}"
-
-
-def reaches(body: Body, hand: Hand) -> Array:
-    """How far from each axis the furthest thing that it moves can be, (6,) [m]: a bound."""
-    a1, a2, _, _, c2, c3, c4 = body.kinematics.dims.tolist()
-    furthest = np.maximum(np.abs(hand.solids.low), np.abs(hand.solids.high))
-    tip = float(np.linalg.norm(furthest, axis=1).max(initial=0.1))
-    wrist = c4 + tip
-    elbow = float(np.hypot(c3, a2)) + wrist
-    return np.array([abs(a1) + c2 + elbow, c2 + elbow, elbow, wrist, wrist, tip])

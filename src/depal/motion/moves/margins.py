@@ -7,6 +7,9 @@ from depal.motion.collision import Margins
 CLOSE = Margins(arm=0.02, tool=0.004, held=0.004, pile=-0.012, floor=0.01)
 """Near boxes, in straight parts: the held box may rub along cases, by the errors of its pose."""
 
+DEEPER = 0.003
+"""A careful way out takes a box no deeper into its neighbours than it seems to be already [m]."""
+
 ENTRY = Margins(arm=0.02, tool=0.005, held=0.004, pile=0.004, floor=0.01)
 """Going into a place: narrow, but clear."""
 
