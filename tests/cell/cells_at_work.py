@@ -57,6 +57,9 @@ TROLLEYS = tuple(PlaceId(f"trolley_{n}/level_1") for n in (4, 1, 5, 2))
 
 STORED, ASIDE, PERSON, LOST = Fate.STORED, Fate.SET_ASIDE, Fate.BY_PERSON, Fate.LOST
 
+BROKEN = r"(?!DeviceError)\w+(Error|Exception): "
+"""What no fault excuses: a primitive that broke, not a device."""
+
 LONG = 20_000.0
 """A run that is not over by then never ends [s]."""
 
@@ -128,6 +131,7 @@ class Cell:
     events: list[ev.Event] = field(default_factory=list)
     choices: list[ChoiceNote] = field(default_factory=list)
     started: list[str] = field(default_factory=list)
+    blunders: list[str] = field(default_factory=list)
     arm: FakeArm = field(init=False)
     sight: FakeSight = field(init=False)
     store: FakeStore = field(init=False)
@@ -187,11 +191,14 @@ class Cell:
     def _heard(self, _: int, events: Sequence[ev.Event]) -> None:
         trees = self.work.runtime.engine.state.trees
         self.events += events
-        self.started += [
-            trees[event.tree].nodes[event.node].node.label
-            for event in events
-            if isinstance(event, ev.Started)
-        ]
+        for event in events:
+            if isinstance(event, ev.Started):
+                label = trees[event.tree].nodes[event.node].node.label
+                self.started.append(label)
+                if label.startswith("kr60_reach") and self.gripper.load():
+                    self.blunders.append(f"{label} with a full hand")
+            if isinstance(event, ev.Ended) and re.match(BROKEN, event.reason):
+                self.blunders.append(event.reason)
 
     # What came of it
 
@@ -219,16 +226,6 @@ class Cell:
             if departure.place is not None
         }
 
-    @property
-    def blunders(self) -> list[str]:
-        """What no fault excuses: a primitive that broke, not a device."""
-        return [
-            event.reason
-            for event in self.events
-            if isinstance(event, ev.Ended)
-            and re.match(r"(?!DeviceError)\w+(Error|Exception): ", event.reason)
-        ]
-
     def assert_whole(self) -> None:
         """What holds after every run, whatever has gone wrong in it."""
         assert self.blunders == []
@@ -236,10 +233,20 @@ class Cell:
         assert len(self.work.pile) == 0
         assert not self.still_held
         assert self.work.held is None
-        assert self.booked == self.placed
         stored = {box: place for box, place in self.placed.items() if self.fates[box] is STORED}
         assert {str(m.box): str(m.place) for m in self.store.movements} == stored
+        assert self.booked == {
+            box: place for box, place in self.placed.items() if not self._went_away(box, place)
+        }
         assert self.work.questions.open == ()
+
+
+    def _went_away(self, box: str, place: str) -> bool:
+        """Whether the trolley in which a box stood was exchanged afterwards."""
+        stored = [movement.at for movement in self.store.movements if movement.box == box]
+        return any(
+            place.startswith(bay) and stored and stored[0] <= at for at, bay in self.bays.exchanges
+        )
 
 
 def filling(layout: CellLayout, place: PlaceId) -> Standing:

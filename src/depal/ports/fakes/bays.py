@@ -1,5 +1,6 @@
 """Bays in which trolleys come and go as a test says."""
 
+import asyncio
 from dataclasses import dataclass, field
 
 
@@ -9,17 +10,18 @@ class FakeBays:
 
     Attributes:
         pulled: bays without a trolley.
-        exchanges: how often each bay got another trolley.
+        exchanges: when [s] which bay got another trolley.
     """
 
     pulled: set[str] = field(default_factory=set)
-    exchanges: dict[str, int] = field(default_factory=dict)
+    exchanges: list[tuple[float, str]] = field(default_factory=list)
 
     def trolley(self, bay: str) -> str | None:
         """The trolley in the bay."""
-        return None if bay in self.pulled else f"{bay}#{self.exchanges.get(bay, 0) + 1}"
+        number = 1 + sum(name == bay for _, name in self.exchanges)
+        return None if bay in self.pulled else f"{bay}#{number}"
 
     def exchange(self, bay: str) -> None:
         """Another trolley stands there."""
         self.pulled.discard(bay)
-        self.exchanges[bay] = self.exchanges.get(bay, 0) + 1
+        self.exchanges.append((asyncio.get_running_loop().time(), bay))

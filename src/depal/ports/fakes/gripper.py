@@ -5,7 +5,6 @@ from math import inf
 from dataclasses import dataclass, field
 
 from depal.domain import Cup
-from depal.errors import DeviceError
 
 FULL, RISE, VENT = 30_000.0, 0.25, 0.2  # [Pa], [s], [s]
 
@@ -46,9 +45,7 @@ class FakeGripper:
         self.up = up
 
     async def suck(self, cups: tuple[Cup, ...]) -> bool:
-        """Makes vacuum, or not; a hand that is full is refused."""
-        if self.load():
-            raise DeviceError("the gripper holds a box already")
+        """Makes vacuum, or not."""
         lasts = self.breaks.get(len(self.grips), inf)
         self.grips.append(cups)
         self.until = asyncio.get_running_loop().time() + lasts
