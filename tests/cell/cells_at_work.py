@@ -240,7 +240,6 @@ class Cell:
         }
         assert self.work.questions.open == ()
 
-
     def _went_away(self, box: str, place: str) -> bool:
         """Whether the trolley in which a box stood was exchanged afterwards."""
         stored = [movement.at for movement in self.store.movements if movement.box == box]
