@@ -23,7 +23,7 @@ from depal.cell.reporting import Journalist
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import CellLayout, Delivery, Request
+from depal.domain import CellLayout, Delivery, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
@@ -120,7 +120,9 @@ def prepared(options: Options) -> Job:
     delivery, requests = _delivery_and_requests(options)
     refuse_what_cannot_work(layout, delivery)
     settings = Settings(
-        w=options.w, policy=policy_of(options.policy), speed=checked_speed(options.speed)
+        w=checked_share("--w", options.w),
+        policy=policy_of(options.policy),
+        speed=checked_speed(options.speed),
     )
     recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
     return Job(layout, delivery, requests, settings, options.seed, recognised, options.cone)

@@ -254,14 +254,16 @@ class Desk:
             return f"box {box} is neither held nor about to be"
         self._lists.setdefault(box, tuple(places))
         before, searching = self.planned, self._searching.setdefault(box, asyncio.Event())
-        plan = self._first_place(load, places)
-        if isinstance(plan, str) and box not in self._reached and box in self._picks:
-            plan = self._by_another_grasp(box, places) or plan
-        if not isinstance(plan, str):
-            self._keep_carry(plan)
-        await self.charge(self.planned - before)
-        searching.set()
-        del self._searching[box]
+        try:
+            plan = self._first_place(load, places)
+            if isinstance(plan, str) and box not in self._reached and box in self._picks:
+                plan = self._by_another_grasp(box, places) or plan
+            if not isinstance(plan, str):
+                self._keep_carry(plan)
+            await self.charge(self.planned - before)
+        finally:  # broken off or not: nobody waits for it any more
+            searching.set()
+            self._searching.pop(box, None)
         return plan
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
