@@ -210,8 +210,7 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
 ) -> None:
     """Deliveries emptied in the simulated cell; exit status 1: lost, hit or booked wrongly."""
     from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports import throughput_report  # noqa: PLC0415
-    from depal.app.throughput import Asked  # noqa: PLC0415
+    from depal.app.throughput import Asked, throughput_report  # noqa: PLC0415
     from depal.app.throughput import throughput as run  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 

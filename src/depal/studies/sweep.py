@@ -3,12 +3,12 @@
 import re
 import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import TypeVar, cast
 
-from depal.errors import MissingPartError, SettingError
+from depal.errors import DepalError, MissingPartError, SettingError
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -41,6 +41,9 @@ def sweep(
 
     Returns:
         One result a piece.
+
+    Raises:
+        DepalError: a worker process died.
     """
 
     def ended(index: int, result: R, done: int) -> None:
@@ -55,8 +58,12 @@ def sweep(
             ended(index, work(piece), index + 1)
     else:
         futures = {executor.submit(work, piece): index for index, piece in enumerate(pieces)}
-        for done, future in enumerate(as_completed(futures), start=1):
-            ended(futures[future], future.result(), done)
+        try:
+            for done, future in enumerate(as_completed(futures), start=1):
+                ended(futures[future], future.result(), done)
+        except BrokenExecutor as error:
+            message = "a worker process died; fewer --workers need less memory"
+            raise DepalError(message) from error
     return cast("list[R]", results)
 
 

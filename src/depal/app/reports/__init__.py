@@ -8,7 +8,6 @@ from depal.app.reports.fig8 import fig8_report
 from depal.app.reports.fig9 import fig9_report
 from depal.app.reports.report import Report
 from depal.app.reports.table1 import table1_report
-from depal.app.reports.throughput import throughput_report
 from depal.app.reports.unload import unload_report
 
 __all__ = [
@@ -20,6 +19,5 @@ __all__ = [
     "fig8_report",
     "fig9_report",
     "table1_report",
-    "throughput_report",
     "unload_report",
 ]

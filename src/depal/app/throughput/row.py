@@ -3,7 +3,7 @@
 from collections import Counter
 from typing import Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, PrivateAttr
 
 from depal.app.files import Json
 from depal.cell.departures import Fate
@@ -62,7 +62,7 @@ class Row(_Part):
     boxes_per_hour: float
     shares: dict[str, float]
     plan_seconds: tuple[float, ...]
-    fields: dict[str, Json] = Field(exclude=True, repr=False)
+    _fields: dict[str, Json] = PrivateAttr(default_factory=dict)
 
     @classmethod
     def of(cls, fields: dict[str, Json]) -> Self:
@@ -71,7 +71,14 @@ class Row(_Part):
         Raises:
             ValidationError: these are not the fields of a run.
         """
-        return cls.model_validate({**fields, "fields": fields})
+        row = cls.model_validate(fields)
+        row._fields = fields
+        return row
+
+    @property
+    def fields(self) -> dict[str, Json]:
+        """All that the run wrote."""
+        return self._fields
 
     @property
     def placed_twice(self) -> int:

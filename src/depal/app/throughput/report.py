@@ -8,7 +8,10 @@ from rich.text import Text
 
 from depal.app.files import Json
 from depal.app.reports.report import PlainTable, Report, plain_table, verdict
-from depal.app.throughput import Asked, Row, Summary, Throughput, summary_of
+from depal.app.throughput.asked import Asked
+from depal.app.throughput.row import Row
+from depal.app.throughput.runs import Throughput
+from depal.app.throughput.summary import Summary, summary_of
 from depal.cell.timekeeping import MOTION
 from depal.studies.drawing import Emptied, throughput_figure
 
@@ -63,15 +66,15 @@ def _rows(rows: Sequence[Row], asked: Asked) -> PlainTable:
         "seed",
         "boxes",
         "stored",
-        "aside or left",
+        "not stored",
         "lost",
         "collisions",
-        "wrong in the books",
+        "misbooked",
         "boxes/h",
-        "s simulated",
-        "waiting",
-        "arm motion",
-        "s real",
+        "sim s",
+        "wait s",
+        "motion",
+        "real s",
         "",
     )
     for row in rows:
