@@ -106,7 +106,7 @@ def test_shortcuts_and_pulled_corners_keep_ends_and_freedom_and_never_lengthen()
     start, goal = free_ones(EMPTY, BEFORE_PILE)[0], free_ones(EMPTY, BEFORE_TROLLEY)[0]
     speed = np.array(CELL.robot.limits.speed)
     arm = BODY.kinematics
-    axes = Axes(EMPTY.reach, speed, arm.lower, arm.upper, 0.02)
+    axes = Axes(speed, arm.lower, arm.upper, 0.02)
     found = PLANNER.search(EMPTY, start, goal[None, :], Effort(seed=1), level=False)
     assert found is not None
     detour = np.concatenate((found.path, found.path[-2::-1], found.path[1:]))

@@ -12,6 +12,7 @@ from depal.simulation.devices import (
     SimulatedGripper,
     SimulatedSafety,
 )
+from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.people import Policy, SimulatedPerson, first_choice
@@ -35,7 +36,7 @@ class SimulatedCell:
         sight: behind `Sight`, from the truth.
         referee: for reports and tests only.
         reader: behind `BarcodeReader`.
-        camera: behind `Camera`, where pictures are made.
+        camera: behind `Camera`, the first of the layout's.
     """
 
     world: World
@@ -47,7 +48,7 @@ class SimulatedCell:
     sight: TruthSight
     referee: Referee
     reader: BarcodeReader
-    camera: Camera | None = None
+    camera: Camera
 
 
 def build(
@@ -80,7 +81,7 @@ def build(
     stack = delivery.stack if delivery.stack is not None else stacked(delivery)
     time = clock or LoopClock()
     world = World(layout, cases_of(delivery, stack, layout), seed, start)
-    safety = SimulatedSafety()
+    safety, stage = SimulatedSafety(), Stage(world)
     return SimulatedCell(
         world,
         SimulatedArm(world, time, safety),
@@ -90,5 +91,6 @@ def build(
         SimulatedPerson(world, time, policy),
         TruthSight(world, time, sight),
         Referee(world),
-        reader=SimulatedReader(Stage(world), time),
+        SimulatedReader(stage, time),
+        SimulatedCamera(stage, time),
     )

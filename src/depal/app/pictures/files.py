@@ -12,7 +12,7 @@ from depal.simulation.world import Snapshot
 
 Bytes = npt.NDArray[np.uint8]
 
-COLOURS = 128
+COLOURS = 256
 """An animation has so many colours, the same in every picture."""
 
 
@@ -45,7 +45,7 @@ def save_animation(
     for snapshot, caption in moments:
         image = Image.fromarray(painter.picture(snapshot, caption, size))
         if palette is None:
-            palette = image.quantize(COLOURS, method=Image.Quantize.MEDIANCUT)
+            palette = image.quantize(COLOURS, method=Image.Quantize.MEDIANCUT, kmeans=2)
         frames.append(image.quantize(palette=palette, dither=Image.Dither.NONE))
     if not frames:
         raise ValueError("an animation needs at least one moment")

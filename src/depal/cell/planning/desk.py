@@ -122,7 +122,7 @@ class Desk:
     def _timed_pick(self, box: Perceived, mass: float, pick: Pick) -> PickPlan | str:
         scene = self._around.scene(self._work.pile)
         empty = self._mover.checker(scene, OPEN, folded=pick.grasp.folded)
-        holding = Holding.of(pick.grasp, mass, self._work.layout.tool)
+        holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
         approach = self._timing.along(pick.approach, checker=empty)
         lift = self._timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
@@ -306,7 +306,7 @@ class Desk:
             if isinstance(put, NoMotion):
                 reason = str(put)
                 continue
-            holding = Holding.of(load.grasp, load.mass, layout.tool)
+            holding = Holding.of(load.grasp, load.mass, layout.tool, size=load.size)
             clear = self._mover.checker(scene, OPEN, load.grasp, load.size)
             motion = self._timing.along(put.carry, holding, clear)
             descent = self._timing.slowly(put.descent, holding)
@@ -390,7 +390,7 @@ class Desk:
 
     def _sides(self, load: Load) -> ShowPlan | str:
         scene = self._around.scene(self._work.pile, without=load.box)
-        holding = Holding.of(load.grasp, load.mass, self._work.layout.tool)
+        holding = Holding.of(load.grasp, load.mass, self._work.layout.tool, size=load.size)
         clear = self._mover.checker(scene, OPEN, load.grasp, load.size)
         found: list[Trajectory] = []
         reason = "no side can be shown"

@@ -14,6 +14,10 @@ from depal.motion.timing import Leg, time_path
 from depal.ports import Trajectory
 
 
+GENTLE = 0.5
+"""Share of the straight speed at which a box is pulled out of the pile."""
+
+
 @dataclass(frozen=True, slots=True)
 class Timing:
     """Times paths for one cell.
@@ -32,15 +36,14 @@ class Timing:
         self, parts: Sequence[Part], holding: Holding | None = None, checker: Checker | None = None
     ) -> Trajectory | None:
         """The fastest trajectory along some parts; None where the suction would not hold."""
-        speeds = self.layout.speeds
         legs = [
             Leg(
                 part.path,
                 curve=part.kind is Kind.STRAIGHT,
-                speed=speeds.straight if part.kind is Kind.STRAIGHT else speeds.flange,
+                speed=self._speed_of(part, first=number == 0),
                 touching=part.touching,
             )
-            for part in parts
+            for number, part in enumerate(parts)
         ]
         held = holding if self.cone else None
         rounded = None if checker is None else checker.path_free
@@ -48,6 +51,13 @@ class Timing:
         if timed is not None and not np.isfinite(timed.positions).all():
             timed = time_path(legs, self.layout.robot, held=held, speed=self.speed)
         return timed
+
+    def _speed_of(self, part: Part, *, first: bool) -> float:
+        """Of the flange [m/s]; out of the pile, where a motion begins, a box may rub: gently."""
+        speeds = self.layout.speeds
+        if part.kind is Kind.FREE:
+            return speeds.flange
+        return speeds.straight * (GENTLE if first and part.touching else 1.0)
 
     def slowly(self, part: Part, holding: Holding | None = None) -> Trajectory | None:
         """Along a straight part at the speed at which boxes are set down."""

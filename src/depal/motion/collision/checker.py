@@ -16,11 +16,11 @@ from depal.motion.collision.checking import (
     TILT,
     Case,
     Margins,
-    edge_is_free,
     first_free_along,
     first_hit,
     first_hit_along,
 )
+from depal.motion.collision.edges import edge_is_free
 from depal.motion.collision.values import Arm, Array, Hand, Scene, arm_of
 from depal.motion.kinematics import Kinematics
 
@@ -91,7 +91,6 @@ class Checker:
             np.array(upright.up if upright else (0.0, 0.0, 1.0)),
             math.cos(upright.tilt) if upright else -2.0,
         )
-        self.reach = reaches(body, hand)
 
     def with_margins(self, margins: Margins) -> "Checker":
         """The same with other margins."""
@@ -117,7 +116,7 @@ class Checker:
 
     def edge_free(self, start: Array, end: Array, step: float = STEP) -> bool:
         """Whether the straight joint line between two configurations is free."""
-        return bool(edge_is_free(self.case, start, end, self.reach, step))
+        return bool(edge_is_free(self.case, start, end, step))
 
     def why(self, joints: Array) -> str:
         """What touches what, in words; empty where nothing does."""
@@ -145,13 +144,3 @@ class Checker:
         if what >= ITSELF:
             return f"{mover} against link {self._body.arm.link[what - ITSELF]}"
         return f"{mover} against {self._scene.names[what]}"
-
-
-def reaches(body: Body, hand: Hand) -> Array:
-    """How far from each axis the furthest thing that it moves can be, (6,) [m]: a bound."""
-    a1, a2, _, _, c2, c3, c4 = body.kinematics.dims.tolist()
-    furthest = np.maximum(np.abs(hand.solids.low), np.abs(hand.solids.high))
-    tip = float(np.linalg.norm(furthest, axis=1).max(initial=0.1))
-    wrist = c4 + tip
-    elbow = float(np.hypot(c3, a2)) + wrist
-    return np.array([abs(a1) + c2 + elbow, c2 + elbow, elbow, wrist, wrist, tip])

@@ -10,14 +10,12 @@ class Axes(NamedTuple):
     """What a search needs to know of the arm's axes.
 
     Attributes:
-        reach: (6,) bound of how far from each axis anything is that it moves [m].
         speed: (6,) [rad/s].
         lower: (6,) [rad].
         upper: (6,) [rad].
         step: of the checks along edges [m].
     """
 
-    reach: Array
     speed: Array
     lower: Array
     upper: Array

@@ -129,7 +129,7 @@ class FreePlanner:
         kinematics = self._kinematics
         path = grow_trees(
             checker.case,
-            Axes(checker.reach, self._speed, kinematics.lower, kinematics.upper, STEP),
+            Axes(self._speed, kinematics.lower, kinematics.upper, STEP),
             self._levels(start, goals) if level else np.empty((0, 3, 3)),
             start,
             goals,
@@ -142,7 +142,7 @@ class FreePlanner:
 
     def _shortened(self, checker: Checker, path: Array, effort: Effort) -> Array:
         kinematics = self._kinematics
-        axes = Axes(checker.reach, self._speed, kinematics.lower, kinematics.upper, STEP)
+        axes = Axes(self._speed, kinematics.lower, kinematics.upper, STEP)
         short = shorten(checker.case, axes, path, TRIES, effort.seed)
         return _without_straights(pull(checker.case, axes, short))
 

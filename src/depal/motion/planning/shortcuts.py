@@ -3,7 +3,8 @@
 import numpy as np
 
 from depal.geometry import kernel
-from depal.motion.collision.checking import Case, edge_is_free
+from depal.motion.collision.checking import Case
+from depal.motion.collision.edges import edge_is_free
 from depal.motion.collision.values import Array
 from depal.motion.planning.axes import Axes, span
 from depal.motion.planning.samples import stream_of, uniform
@@ -39,7 +40,7 @@ def shorten(case: Case, axes: Axes, path: Array, tries: int, seed: int) -> Array
         b = _between(points, lengths, j, e)
         if span(a, b, axes.speed) > 0.999 * (e - s):
             continue
-        if not edge_is_free(case, a, b, axes.reach, axes.step):
+        if not edge_is_free(case, a, b, axes.step):
             continue
         cut = np.empty((i + 1 + 2 + n - 1 - j, 6))
         cut[: i + 1] = points[: i + 1]
@@ -78,8 +79,8 @@ def pull(case: Case, axes: Axes, path: Array) -> Array:
                 now = span(before, new, axes.speed) + span(new, after, axes.speed)
                 if (
                     whole - now > WORTH
-                    and edge_is_free(case, before, new, axes.reach, axes.step)
-                    and edge_is_free(case, new, after, axes.reach, axes.step)
+                    and edge_is_free(case, before, new, axes.step)
+                    and edge_is_free(case, new, after, axes.step)
                 ):
                     points[k] = new
                     gain += whole - now

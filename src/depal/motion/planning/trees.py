@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.geometry import kernel
-from depal.motion.collision.checking import Case, edge_is_free
+from depal.motion.collision.checking import Case
+from depal.motion.collision.edges import edge_is_free
 from depal.motion.collision.values import Array
 from depal.motion.planning.axes import Axes, span
 from depal.motion.planning.samples import level_sample, stream_of
@@ -43,7 +44,7 @@ def extend(
         new, ended = q.copy(), REACHED
     else:
         new, ended = tree[near] + (q - tree[near]) * (REACH / distance), ADVANCED
-    if count >= len(tree) or not edge_is_free(case, tree[near], new, axes.reach, axes.step):
+    if count >= len(tree) or not edge_is_free(case, tree[near], new, axes.step):
         return TRAPPED, count
     tree[count] = new
     parent[count] = near

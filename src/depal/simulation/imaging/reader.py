@@ -13,14 +13,12 @@ from depal.executive.clock import Clock
 from depal.simulation.imaging.lens import Lens, Light
 from depal.simulation.imaging.raster import render
 from depal.simulation.imaging.scene import Stage
+from depal.simulation.imaging.sensor import sensed
 
 Bytes = npt.NDArray[np.uint8]
 
 READING = 0.3
 """One reading takes so long [s]."""
-
-BLUR = 0.6
-"""The lens spreads a point over so many pixels, as a Gauss curve's width."""
 
 NOISE = 3.0
 """Standard deviation of a pixel's grey value."""
@@ -53,12 +51,9 @@ class SimulatedReader:
         lens = lens_of(world.layout.reader)
         mesh = scene.mobile(self._stage.now())
         seen = render(mesh, scene.atlas, lens, _beside(lens), sky=(30, 30, 30))
-        sharp = cv2.cvtColor(seen.colour, cv2.COLOR_RGB2GRAY)
-        grey = cv2.GaussianBlur(sharp, (0, 0), BLUR).astype(np.float32)
         random = np.random.default_rng([world.seed, 6, self._readings])
         self._readings += 1
-        noise = NOISE * random.standard_normal(grey.shape, dtype=np.float32)
-        return np.asarray(np.clip(grey + noise, 0, 255), dtype=np.uint8)
+        return sensed(np.asarray(cv2.cvtColor(seen.colour, cv2.COLOR_RGB2GRAY)), NOISE, random)
 
 
 def lens_of(mount: ReaderMount) -> Lens:

@@ -226,7 +226,6 @@ def ompl_figures(
     queries = [
         Query(
             motion.checker.case,
-            motion.checker.reach,
             STEP,
             speed,
             arm.lower,

@@ -17,7 +17,8 @@ from multiprocessing import get_context
 import numpy as np
 import numpy.typing as npt
 
-from depal.motion.collision.checking import Case, edge_is_free, first_hit
+from depal.motion.collision.checking import Case, first_hit
+from depal.motion.collision.edges import edge_is_free
 
 Floats = npt.NDArray[np.float64]
 
@@ -28,7 +29,6 @@ class Query:
 
     Attributes:
         case: what must not be touched.
-        reach: (6,) bound of what each axis moves [m].
         step: of the checks along edges [m].
         speed: (6,) of the axes [rad/s]; distances are times.
         lower: (6,) [rad].
@@ -38,7 +38,6 @@ class Query:
     """
 
     case: Case
-    reach: Floats
     step: float
     speed: Floats
     lower: Floats
@@ -75,7 +74,7 @@ def _solve(queries: list[Query], limit: float) -> list[tuple[float, float]]:
     util.setLogLevel(util.LOG_NONE)
     util.RNG.setSeed(1)
     for query in queries[:1]:
-        edge_is_free(query.case, query.start, query.start, query.reach, query.step)
+        edge_is_free(query.case, query.start, query.start, query.step)
     return [_way(query, limit, base, geometric) for query in queries]
 
 
@@ -93,7 +92,7 @@ def _way(query: Query, limit: float, base: object, geometric: object) -> tuple[f
         return np.array([state[axis] for axis in range(6)]) * query.speed  # type: ignore[index]
 
     setup.setStateValidityChecker(lambda state: bool(first_hit(query.case, joints(state))[0] < 0))
-    moved = float((np.abs(query.upper - query.lower) * query.reach).sum())
+    moved = float((np.abs(query.upper - query.lower) * reaches(query.case)).sum())
     information.setStateValidityCheckingResolution(query.step / moved)
     ends = []
     for q in (query.start, query.goal):
@@ -112,3 +111,12 @@ def _way(query: Query, limit: float, base: object, geometric: object) -> tuple[f
     path = setup.getSolutionPath()
     corners = np.array([joints(path.getState(k)) for k in range(path.getStateCount())])
     return seconds, float((np.abs(np.diff(corners, axis=0)) / query.speed).max(axis=1).sum())
+
+
+def reaches(case: Case) -> Floats:
+    """How far from each axis the furthest thing that it moves can ever be, (6,) [m]."""
+    a1, a2, _, _, c2, c3, c4 = case.dims.tolist()
+    furthest = np.maximum(np.abs(case.hand.low), np.abs(case.hand.high))
+    tip = float(np.linalg.norm(furthest, axis=1).max())
+    elbow = float(np.hypot(c3, a2)) + c4 + tip
+    return np.array([abs(a1) + c2 + elbow, c2 + elbow, elbow, c4 + tip, c4 + tip, tip])
