@@ -38,9 +38,23 @@ def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) 
     return run
 
 
+def gone(stack: int | None, outcome: str = "stored") -> Fields:
+    """A box that left the pallet."""
+    return {"stack": stack, "box": "b1", "outcome": outcome, "at": 7.25}
+
+
+def truth(*disagreements: str, hits: int = 0, losses: int = 0) -> Fields:
+    """The referee's word."""
+    return {
+        "disagreements": list(disagreements),
+        "collisions": [{"at": 3.0, "who": "link_3", "against": "b2", "force": 61.0}] * hits,
+        "suction_losses": ["b1"] * losses,
+    }
+
+
 def fields_of(delivery: str = "d", seed: int = 0, **changes: object) -> Fields:
     """What a run in which four boxes were stored writes."""
-    stored = [{"stack": number, "outcome": "stored"} for number in range(4)]
+    stored = [gone(number) for number in range(4)]
     fields: Fields = {
         "delivery": delivery,
         "boxes": 4,
@@ -56,7 +70,7 @@ def fields_of(delivery: str = "d", seed: int = 0, **changes: object) -> Fields:
         "boxes_per_hour": 400.0,
         "shares": {"arm motion": 36.0, "waiting for people": 4.0},
         "plan_seconds": [0.01, 0.02, 0.3],
-        "referee": {"disagreements": [], "suction_losses": []},
+        "referee": truth(),
         "seed": seed,
         "events_sha256": "0",
     }
@@ -119,10 +133,11 @@ def two_boxes(path: Path) -> Path:
             {"stored": 3, "exceptions": [{"box": "b1", "outcome": "set aside", "reason": "big"}]},
             True,
         ),
-        ({"referee": {"disagreements": ["box b1"], "suction_losses": []}}, False),
-        ({"referee": {"disagreements": [], "suction_losses": ["b1"]}}, True),
-        ({"sequence": [{"stack": 2, "outcome": "stored"}] * 2}, False),
-        ({"sequence": [{"stack": None, "outcome": "stored"}] * 2}, True),
+        ({"referee": truth("box b1")}, False),
+        ({"referee": truth(losses=1)}, True),
+        ({"sequence": [gone(2), gone(2)]}, False),
+        ({"sequence": [gone(2), gone(2, "set aside")]}, True),
+        ({"sequence": [gone(None), gone(None)]}, True),
     ],
 )
 def test_a_run_holds_when_nothing_was_lost_hit_or_booked_wrongly(
@@ -274,12 +289,21 @@ def test_a_failure_is_beside_the_rows() -> None:
     assert not runs.Throughput((), (), 0).holds
 
 
+LOST: Fields = {"lost": 1, "stored": 3, "sequence": [gone(0, "lost")]}
+HIT: Fields = {"collisions": 1, "referee": truth(hits=1)}
+
+
 @pytest.mark.parametrize(
-    ("changes", "status"),
-    [({}, 0), ({"lost": 1, "stored": 3}, 1), ({"collisions": 2}, 1)],
+    ("changes", "status", "said"),
+    [
+        ({}, 0, "whole"),
+        (LOST, 1, "dev-035, seed 0: b1: lost; it left the pallet at 7.2 s"),
+        (HIT, 1, "dev-035, seed 0: 3.0 s: link_3 against b2, 61 N"),
+        ({"referee": truth("box [b1]")}, 1, "dev-035, seed 0: box [b1]"),
+    ],
 )
-def test_the_exit_status_says_whether_something_was_lost_or_hit(
-    depal: Run, monkeypatch: pytest.MonkeyPatch, changes: Fields, status: int
+def test_the_exit_status_says_whether_something_was_lost_hit_or_booked_wrongly(
+    depal: Run, monkeypatch: pytest.MonkeyPatch, changes: Fields, status: int, said: str
 ) -> None:
     """A low rate alone is no failure."""
     monkeypatch.setattr(
@@ -288,6 +312,7 @@ def test_the_exit_status_says_whether_something_was_lost_or_hit(
     done, out, _ = depal("study", "throughput", "--deliveries", "dev-035")
     assert done == status
     assert ("WRONG" in out) is bool(status)
+    assert said in out
 
 
 @pytest.mark.usefixtures("done")

@@ -1,6 +1,6 @@
 """Deliveries emptied in the simulated cell, one row each, and all of them together."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from matplotlib.figure import Figure
 from rich.console import RenderableType
@@ -12,6 +12,7 @@ from depal.app.throughput.asked import Asked
 from depal.app.throughput.row import Row
 from depal.app.throughput.runs import Throughput
 from depal.app.throughput.summary import Summary, summary_of
+from depal.cell.departures import Fate
 from depal.cell.timekeeping import MOTION
 from depal.studies.drawing import Emptied, throughput_figure
 
@@ -141,11 +142,21 @@ def _remarks(result: Throughput) -> Sequence[Text]:
     ]
     for row in result.rows:
         name = f"{row.delivery}, seed {row.seed}"
-        said += [Text(f"{name}: {line}", style="red") for line in row.referee.disagreements]
+        said += [Text(f"{name}: {line}", style="red") for line in _wrongs(row)]
         said += [Text(f"{name}: {e.box}: {e.outcome}: {e.reason}") for e in row.exceptions]
     if result.resumed:
         said.append(Text(f"{result.resumed} of the runs had been kept before."))
     return said
+
+
+def _wrongs(row: Row) -> Iterator[str]:
+    """What was lost, hit or booked wrongly in a run."""
+    for gone in row.sequence:
+        if gone.outcome == Fate.LOST.value:
+            yield f"{gone.box}: lost; it left the pallet at {gone.at:.1f} s"
+    for hit in row.referee.collisions:
+        yield f"{hit.at:.1f} s: {hit.who} against {hit.against}, {hit.force:.0f} N"
+    yield from row.referee.disagreements
 
 
 def _percent(share: float) -> str:

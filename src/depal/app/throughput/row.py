@@ -19,7 +19,9 @@ class Exit(_Part):
     """A box that left the pallet."""
 
     stack: int | None
+    box: str
     outcome: str
+    at: float
 
 
 class Wish(_Part):
@@ -36,8 +38,19 @@ class Unstored(_Part):
     reason: str
 
 
+class Hit(_Part):
+    """A collision."""
+
+    at: float
+    who: str
+    against: str
+    force: float
+
+
 class Truth(_Part):
     """What the referee says."""
+
+    collisions: tuple[Hit, ...]
 
     disagreements: tuple[str, ...]
     suction_losses: tuple[str, ...]
