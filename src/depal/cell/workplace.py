@@ -66,7 +66,7 @@ class Settings:
     w: float = 0.5
     policy: Policy = Policy.PAPER
     speed: float = 1.0
-    charges: Charges = Charges()
+    charges: Charges = field(default_factory=Charges)
 
 
 @dataclass(frozen=True, slots=True)

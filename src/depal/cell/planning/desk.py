@@ -3,6 +3,7 @@
 import asyncio
 import math
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import TypeVar
 
 import numpy as np
@@ -318,9 +319,7 @@ class Desk:
         for spot in spots:
             berth = berth_at(spot)
             put = self._measured(
-                lambda berth=berth: self._mover.put(
-                    load.lead, load.start, berth, scene, self._effort()
-                )
+                partial(self._mover.put, load.lead, load.start, berth, scene, self._effort())
             )
             if isinstance(put, NoMotion):
                 reason = str(put)
@@ -418,8 +417,15 @@ class Desk:
         lead, start = load.lead, load.start
         for _, pose in shown_poses(load, self._work.layout.reader):
             shown = self._measured(
-                lambda lead=lead, start=start, pose=pose: self._mover.show(
-                    lead, start, load.grasp, load.size, [pose], scene, self._effort()
+                partial(
+                    self._mover.show,
+                    lead,
+                    start,
+                    load.grasp,
+                    load.size,
+                    [pose],
+                    scene,
+                    self._effort(),
                 )
             )
             if isinstance(shown, NoMotion):

@@ -1,9 +1,9 @@
 """The primitives of `query` and `leave`: find a place, carry the box there, set it down."""
 
 from depal.cell.departures import Fate
+from depal.cell.guards import LOST, Guards
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
-from depal.cell.guards import LOST, Guards
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace
