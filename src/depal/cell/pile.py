@@ -2,11 +2,29 @@
 
 from dataclasses import replace
 
-from depal.domain import BoxId, Gtin, Perceived, Recognition
+from depal.domain import BoxId, Gtin, PalletStand, Perceived, Recognition
 from depal.ports import View
 
 MISSED = 3
 """So many looks in a row may miss a box before it is believed to be gone."""
+
+
+def above_deck(view: View, stand: PalletStand) -> View:
+    """The view with boxes that seem to be sunk into the pallet's deck lifted onto it.
+
+    A picture is a few millimetres off; a box that stands in wood could not be taken.
+    """
+    deck = stand.cell_from_pallet.translation[2]
+    return replace(view, boxes=tuple(_lifted(box, deck) for box in view.boxes))
+
+
+def _lifted(box: Perceived, deck: float) -> Perceived:
+    sunk = deck - float(box.shape.corners[:, 2].min())
+    if sunk <= 0.0:
+        return box
+    x, y, z = box.shape.centre
+    pose = replace(box.shape.pose, translation=(x, y, z + sunk))
+    return replace(box, shape=replace(box.shape, pose=pose))
 
 
 class Pile:
