@@ -1,7 +1,7 @@
 # make run      install, then run the main job
 # make test     install, then check and test everything; samples every figure
 # make check    formatting, lint, types and layers only
-# make figures  measure every figure (minutes; resumable) and print the table of the README
+# make figures  measure every figure (half an hour; resumable) and print the table of the README
 
 PYTHON ?= python3
 BIN := .venv/bin

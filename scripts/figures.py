@@ -18,6 +18,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 from rich.console import Console
 from rich.progress import track
@@ -85,15 +86,66 @@ def executive() -> Iterator[Line]:
     yield from _benched("executive")
 
 
+def planning() -> Iterator[Line]:
+    """`depal bench planning`."""
+    yield from _benched("planning")
+
+
+def simulation() -> Iterator[Line]:
+    """`depal bench simulation`, whole runs included: a real delivery twice, the paper's case."""
+    yield from _benched("simulation")
+
+
 def _benched(part: str) -> Iterator[Line]:
     report, _ = depal("bench", part)
     figures = report["figures"]
     assert isinstance(figures, list)  # noqa: S101 - our own file
     for figure in figures:
-        value, target, unit = figure["value"], figure["target"], figure["unit"]
-        peers = ", ".join(f"{name}: {peer:.3g}" for name, peer in figure["peers"].items())
-        said = f"{value:.3g} {unit}" + (f" ({peers})" if peers else "")
-        yield Line(figure["name"], f"<= {target:g} {unit}", said, value <= target)
+        yield _line_of(figure)
+
+
+def _line_of(figure: dict[str, Any]) -> Line:
+    """A figure of `depal bench`; null is what could not be measured, or has no target."""
+    value, target, unit = figure["value"], figure["target"], figure["unit"]
+    peers = ", ".join(f"{name}: {peer:.4g}" for name, peer in figure["peers"].items())
+    said = "not measured" if value is None else f"{value:.4g} {unit}".rstrip()
+    said += f" ({peers})" if peers else ""
+    if target is None:
+        return Line(figure["name"], "", said, value is not None)
+    lower = figure["better"] == "lower"
+    met = value is not None and (value <= target if lower else value >= target)
+    aim = f"{'<=' if lower else '>='} {target:g} {unit}".rstrip()
+    return Line(figure["name"], aim, said, met)
+
+
+def throughput() -> Iterator[Line]:
+    """`depal study throughput` over the deliveries that ship; finished runs are kept."""
+    kept = str(KEPT / f"throughput-{state()}")
+    report, _ = depal("study", "throughput", "--workers", "2", "--keep", kept)
+    total: dict[str, Any] = report["summary"]  # type: ignore[assignment]
+    runs = f"{total['runs']} real deliveries in the cell"
+    failures = report["failures"]
+    assert isinstance(failures, list)  # noqa: S101 - our own file
+    yield Line(f"{runs}: runs without an end", "0", str(len(failures)), not failures)
+    share = total["stored_share"] or 0.0
+    stored = f"{100 * share:.1f} % ({total['stored']} of {total['boxes']})"
+    yield Line(f"{runs}: boxes stored", ">= 99 %", stored, share >= 0.99)  # noqa: PLR2004
+    counts = [total[name] for name in ("lost", "collisions", "disagreements", "placed_twice")]
+    yield Line(
+        f"{runs}: lost; collisions; not where the books say; placed twice",
+        "0; 0; 0; 0",
+        "; ".join(map(str, counts)),
+        not any(counts),
+    )
+    rate = total["boxes_per_hour"]["median"] or 0.0
+    yield Line(f"{runs}: median rate", ">= 400 boxes/h", f"{rate:.0f} boxes/h", rate >= 400)  # noqa: PLR2004
+    shares = ", ".join(f"{name} {100 * part:.1f} %" for name, part in total["shares"].items())
+    yield Line(f"{runs}: where the time goes", "", shares, met=True)
+    plan = total["plan_seconds"]
+    for name, key, target in (("median", "median", 30.0), ("95th percentile", "p95", 200.0)):
+        spent = 1e3 * plan[key] if plan[key] is not None else float("inf")
+        said = f"{spent:.1f} ms"
+        yield Line(f"{runs}: planning a motion, {name}", f"<= {target:g} ms", said, spent <= target)
 
 
 def crashes() -> Iterator[Line]:
@@ -180,16 +232,20 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     unloading,
     executive,
     crashes,
+    planning,
+    simulation,
+    throughput,
     tests,
 )
 
 
 def state() -> str:
-    """A hash of the sources, the tests and this script."""
+    """A hash of the sources and what ships with them, the tests and this script."""
     digest = hashlib.sha256(Path(__file__).read_bytes())
     for folder in ("src", "tests"):
-        for path in sorted((ROOT / folder).rglob("*.py")):
-            digest.update(path.read_bytes())
+        for path in sorted((ROOT / folder).rglob("*")):
+            if path.suffix in {".py", ".task", ".yaml", ".json"}:
+                digest.update(path.read_bytes())
     return digest.hexdigest()[:16]
 
 

@@ -1,14 +1,10 @@
 """What the cell believes stands on the pallet, and what has left it."""
 
-from dataclasses import replace
-
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.departures import Departure, Departures, Fate
-from depal.cell.files import shipped_cell
-from depal.cell.pile import MISSED, Pile, above_deck
+from depal.cell.pile import MISSED, Pile
 from depal.domain import BoxId, Detection, Gtin, Recognition
 from depal.geometry import OrientedBox
 from depal.ports import View
@@ -61,20 +57,3 @@ def test_departures_come_in_the_order_of_leaving(order: list[str]) -> None:
         departures.ends(Departure(BoxId(name), None, None, None, Fate.STORED, "", 99.0))
     assert [d.box for d in departures.sequence] == order
     assert [d.at for d in departures.sequence] == [float(step) for step in range(len(order))]
-
-
-@given(st.floats(-0.02, 0.02))
-def test_a_box_that_seems_to_stand_in_the_deck_stands_on_it(error: float) -> None:
-    """Others stay where they were seen; nothing else of a view changes."""
-    stand = shipped_cell("default").pallet
-    deck = stand.cell_from_pallet.translation[2]
-    box = detection("b1")
-    x, y, _ = box.shape.centre
-    low = replace(box, shape=OrientedBox.upright((x, y, deck + 0.15 + error), box.shape.size, 0.3))
-    high = detection("b2")
-    view = above_deck(View(1.0, (low, high)), stand)
-    assert (view.taken, view.boxes[1]) == (1.0, high)
-    lifted = view.boxes[0].shape
-    assert lifted.corners[:, 2].min() == pytest.approx(deck + max(error, 0.0))
-    assert lifted.centre[:2] == (x, y)
-    assert (lifted.pose.rotation, lifted.size) == (low.shape.pose.rotation, low.shape.size)

@@ -133,14 +133,15 @@ WRONG = [
         ("--cell", "defalt"),
         (
             "neither a file nor a shipped cell is called 'defalt'; expected FILE or a shipped "
-            "cell's name; did you mean 'default'? (there is: default, roll_containers, small_trolleys)"
+            "cell's name; did you mean 'default'? "
+            "(there is: default, roll_containers, small_trolleys)"
         ),
     ),
     (
         ("dev-0000",),
         (
-            "neither a file nor a shipped delivery is called 'dev-0000'; expected FILE, FILE#ID "
-            "or a shipped delivery's id; did you mean 'dev-000'?"
+            "neither a file nor a shipped delivery is called 'dev-0000'; expected FILE, FILE#ID or "
+            "a shipped delivery's id; did you mean 'dev-000'?"
         ),
     ),
     (("--json", "nowhere/x.json"), "--json: there is no folder 'nowhere'"),

@@ -1,10 +1,12 @@
 """A sweep gives the same on any executor."""
 
+import os
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 
 import pytest
 
-from depal.errors import MissingPartError, SettingError
+from depal.errors import DepalError, MissingPartError, SettingError
 from depal.studies.sweep import executor_for, sweep
 from depal.studies.table1 import table1
 
@@ -22,6 +24,53 @@ def test_results_come_in_the_order_of_the_pieces_and_progress_to_its_end() -> No
     assert results == [number * number for number in range(50)]
     assert told[0] == (0, 50)
     assert told[-1] == (50, 50)
+
+
+def test_every_result_is_heard_as_soon_as_it_is_there_with_its_piece() -> None:
+    """Before the progress is told, whoever is first."""
+    with ThreadPoolExecutor(4) as executor:
+        for where in (None, executor):
+            heard: dict[int, int] = {}
+            told: list[tuple[int, int]] = []
+
+            def tell(done: int, _: int) -> None:
+                told.append((done, len(heard)))  # noqa: B023 - called within the turn
+
+            sweep(square, range(9), where, tell, heard.__setitem__)
+            assert heard == {number: number * number for number in range(9)}
+            assert told == [(done, done) for done in range(10)]
+
+
+def die(_: int) -> int:
+    """As a process ends that the system kills."""
+    os._exit(1)
+
+
+@pytest.mark.slow
+def test_a_worker_that_dies_is_one_clear_error() -> None:
+    """And no wait for the pieces that are left."""
+    with pytest.raises(DepalError) as caught, executor_for(2) as executor:
+        sweep(die, range(4), executor)
+    assert str(caught.value) == "a worker process died; fewer --workers need less memory"
+
+
+@pytest.mark.slow
+def test_an_interrupted_sweep_leaves_the_rest_undone(tmp_path: Path) -> None:
+    """What waits in the queue is given up when something goes wrong outside."""
+    pieces = [tmp_path / str(number) for number in range(100)]
+
+    def stop(_: int, __: None) -> None:
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt), executor_for(2) as executor:
+        sweep(touch_slowly, pieces, executor, heard=stop)
+    assert sum(piece.exists() for piece in pieces) < 50
+
+
+def touch_slowly(path: Path) -> None:
+    """A piece of work that leaves a trace."""
+    sum(range(300_000))
+    path.touch()
 
 
 def test_the_table_does_not_depend_on_the_number_of_workers() -> None:

@@ -15,6 +15,7 @@ import numpy as np
 
 from depal import __version__
 from depal.app.files import Json
+from depal.errors import DepalError
 from depal.logistics import shipped_deliveries
 from depal.selection.links import Links
 from depal.selection.walks import propagate
@@ -31,8 +32,20 @@ _NEEDED = (
     "matplotlib",
     "biip",
     "PyYAML",
+    "mujoco-core",
+    "ompl",
+    "toppra",
+    "opencv-contrib-python-headless",
+    "zxing-cpp",
+    "SQLAlchemy",
 )
-_OPTIONAL = {"distributed": "sweeps on a Dask cluster", "networkx": "a peer in depal bench"}
+_OPTIONAL = {
+    "distributed": "sweeps on a Dask cluster",
+    "networkx": "a peer in depal bench",
+    "py_trees": "a peer in depal bench",
+    "behaviortreepy": "a peer in depal bench",
+    "gtpyhop": "a peer in depal bench",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +87,12 @@ def examine() -> list[Finding]:
         *(_package(name) for name in _NEEDED),
         _tried("compiler of the hot loops", _compile),
         _tried("pictures", _draw),
+        _tried("physics", _simulate),
+        _tried("the peer of motion planning", _load_planner),
+        _tried("barcodes", _read_barcode),
+        _tried("the store's data", _open_store),
         _tried("deliveries that ship with depal", _read_shipped),
+        _tried("cells that ship with depal", _read_cells),
         _tried("temporary files", _write),
         *(_optional(name, purpose) for name, purpose in _OPTIONAL.items()),
     ]
@@ -112,6 +130,56 @@ def _draw() -> str:
 
     Figure().savefig(io.BytesIO())
     return "matplotlib draws without a screen"
+
+
+def _simulate() -> str:
+    import mujoco  # noqa: PLC0415 - slow to load
+
+    spec = mujoco.MjSpec()
+    box = spec.worldbody.add_body(pos=(0.0, 0.0, 1.0))
+    box.add_freejoint()
+    box.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=(0.1, 0.1, 0.1))
+    model = spec.compile()
+    data = mujoco.MjData(model)
+    mujoco.mj_step(model, data, nstep=100)
+    if not data.qpos[2] < 1.0:
+        raise DepalError("a box does not fall")
+    return f"MuJoCo {mujoco.__version__}: a box falls"
+
+
+def _load_planner() -> str:
+    importlib.import_module("ompl.base")
+    return "OMPL loads"
+
+
+def _read_barcode() -> str:
+    from depal.simulation.imaging.prints.label import bars_of  # noqa: PLC0415 - slow to load
+    from depal.simulation.imaging.reader import codes_in  # noqa: PLC0415
+
+    digits = "12000823098180"
+    bars = np.pad(np.repeat(bars_of(digits), 3), 60, constant_values=252)
+    if codes_in(np.tile(bars, (120, 1))) != (digits,):
+        raise DepalError("a barcode that was drawn is not read")
+    return "zxing-cpp reads what it draws"
+
+
+def _open_store() -> str:
+    from depal.cell.files import shipped_cell  # noqa: PLC0415 - slow to load
+    from depal.logistics.store import LocalStore  # noqa: PLC0415
+
+    delivery = shipped_deliveries()[0]
+    with LocalStore() as store:
+        store.seed_places([delivery], shipped_cell().places.values())
+        kept = store.note_of(delivery.id)
+    if kept is None or kept.lines != delivery.lines:
+        raise DepalError("a delivery's note is not what was kept")
+    return "SQLite keeps a delivery's note"
+
+
+def _read_cells() -> str:
+    from depal.cell.files import SHIPPED, shipped_cell  # noqa: PLC0415 - slow to load
+
+    return f"{len(SHIPPED)}: {', '.join(shipped_cell(name).name for name in SHIPPED)}"
 
 
 def _read_shipped() -> str:

@@ -8,7 +8,7 @@ import typer
 from depal.cli.output import JsonFile, Seed, console
 
 
-def run(  # noqa: PLR0913 - a command's options
+def run(  # noqa: PLR0913, PLR0917 - a command's options
     delivery: Annotated[
         str,
         typer.Argument(

@@ -178,3 +178,45 @@ def unload(
     with progress_bar("Unloading") as progress:
         results = unload_all(deliveries, requests, w, progress)
     _finish(unload_report(results, w, time.perf_counter() - start), json_file, None)
+
+
+@study.command()
+def throughput(  # noqa: PLR0913, PLR0917 - a command's options
+    deliveries: Annotated[
+        str,
+        typer.Option(help="A file of deliveries, FILE#ID for one of them; else those shipped."),
+    ] = "",
+    seeds: Annotated[int, typer.Option(help="How often each delivery is run.", min=1)] = 1,
+    seed: Seed = 0,
+    requests: Annotated[
+        int,
+        typer.Option("--requests-per-delivery", help="Random requests for each delivery.", min=0),
+    ] = 3,
+    cell: Annotated[
+        str, typer.Option(help="A cell file, or the name of one that ships.")
+    ] = "default",
+    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
+    workers: Workers = 1,
+    dask: Dask = None,
+    keep: Annotated[
+        Path | None,
+        typer.Option(
+            help="Keep finished runs in this folder; an interrupted study goes on from there.",
+            show_default=False,
+        ),
+    ] = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Deliveries emptied in the simulated cell; exit status 1: lost, hit or booked wrongly."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.throughput import Asked, throughput_report  # noqa: PLC0415
+    from depal.app.throughput import throughput as run  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    asked = Asked(deliveries, cell, w, requests, seeds, seed)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
+        result = run(asked, keep, executor, progress)
+    _finish(throughput_report(result, asked, time.perf_counter() - start), json_file, plot)

@@ -5,7 +5,6 @@ from typing import Protocol
 
 from depal.domain import BoxId, Gtin, PlaceId
 
-
 TAKEN = "taken"
 """The answer that promises: the person has taken the box that it is about out of the cell."""
 

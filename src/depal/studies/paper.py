@@ -44,3 +44,12 @@ CASE_2_RANK_WITH = 8
 
 FIG_9_STEPS = 20
 """After how many steps Fig. 9 shows the two piles."""
+
+CASE_2_SPEED = 0.04
+"""The share of the arm's speed in the experiment of case study 2 (section III-C)."""
+
+CASE_2_SECONDS = 148.0
+"""How long a box took in that experiment on average [s]."""
+
+CASE_2_SECONDS_TO_REQUESTED = 1196.0
+"""How long it took until b1 was stored in that experiment [s]."""

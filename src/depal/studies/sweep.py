@@ -1,13 +1,14 @@
 """Many independent pieces of work, on whatever there is to do them."""
 
 import re
+import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, as_completed
+from concurrent.futures import BrokenExecutor, Executor, ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import TypeVar, cast
 
-from depal.errors import MissingPartError, SettingError
+from depal.errors import DepalError, MissingPartError, SettingError
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -26,6 +27,7 @@ def sweep(
     pieces: Sequence[T],
     executor: Executor | None = None,
     progress: Progress = no_progress,
+    heard: Callable[[int, R], None] = lambda _piece, _result: None,
 ) -> list[R]:
     """Does every piece and returns the results in the order of the pieces.
 
@@ -35,21 +37,33 @@ def sweep(
             on the number of workers nor on who is first.
         executor: any executor; None works in this process.
         progress: called after each piece.
+        heard: called with each result as soon as it is there, and with its piece's place.
 
     Returns:
         One result a piece.
+
+    Raises:
+        DepalError: a worker process died.
     """
+
+    def ended(index: int, result: R, done: int) -> None:
+        results[index] = result
+        heard(index, result)
+        progress(done, len(pieces))
+
     results: list[R | None] = [None] * len(pieces)
     progress(0, len(pieces))
     if executor is None:
         for index, piece in enumerate(pieces):
-            results[index] = work(piece)
-            progress(index + 1, len(pieces))
+            ended(index, work(piece), index + 1)
     else:
         futures = {executor.submit(work, piece): index for index, piece in enumerate(pieces)}
-        for done, future in enumerate(as_completed(futures), start=1):
-            results[futures[future]] = future.result()
-            progress(done, len(pieces))
+        try:
+            for done, future in enumerate(as_completed(futures), start=1):
+                ended(futures[future], future.result(), done)
+        except BrokenExecutor as error:
+            message = "a worker process died; fewer --workers need less memory"
+            raise DepalError(message) from error
     return cast("list[R]", results)
 
 
@@ -78,8 +92,18 @@ def executor_for(workers: int, dask: str | None = None) -> Iterator[Executor | N
         yield None
         return
     # Spawned, not forked: a fork would copy the progress bar's thread in whatever state it is.
-    with ProcessPoolExecutor(workers, mp_context=get_context("spawn")) as executor:
-        yield executor
+    context = get_context("spawn")
+    with ProcessPoolExecutor(workers, context, _end_when_interrupted) as executor:
+        try:
+            yield executor
+        except BaseException:
+            executor.shutdown(wait=False, cancel_futures=True)
+            raise
+
+
+def _end_when_interrupted() -> None:
+    """Of a worker: Ctrl-C ends it at once, with what it works on and what would come next."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
 
 
 @contextmanager

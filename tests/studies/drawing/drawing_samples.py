@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from depal.studies.drawing import (
+    Emptied,
     PileState,
     Reduction,
     ScoredLayout,
@@ -22,6 +23,7 @@ from depal.studies.drawing import (
     scored_front,
     table_figure,
     three_piles,
+    throughput_figure,
 )
 
 Array = npt.NDArray[np.float64]
@@ -152,6 +154,41 @@ def draw_scores() -> Figure:
     return scored_front([scored_layout(rows, name) for rows, name in layouts], "w = 0.2")
 
 
+def emptied_deliveries(count: int, runs: int) -> list[Emptied]:
+    """Made-up deliveries, one with a long name, one in which something went wrong."""
+    return [
+        Emptied(
+            f"dev-{number:03}" if number else "a_long_name$for a delivery",
+            20 + number,
+            tuple(380.0 + 9 * number + run for run in range(runs)),
+            {"arm motion": 6.5, "suction": 0.5, "waiting for people": 0.3 * (number % 3)},
+            number != 1,
+        )
+        for number in range(count)
+    ]
+
+
+SHARES = {
+    "arm motion": 0.88,
+    "suction": 0.062,
+    "reader": 0.0,
+    "looking": 0.02,
+    "planning": 0.004,
+    "waiting for people": 0.034,
+    "nothing": 0.0,
+}
+
+
+def draw_throughput() -> Figure:
+    """Ten deliveries, each run once."""
+    return throughput_figure(emptied_deliveries(10, 1), SHARES, 400.0, "seed 0")
+
+
+def draw_many_runs() -> Figure:
+    """So many deliveries that the rows are dense, each run three times."""
+    return throughput_figure(emptied_deliveries(26, 3), SHARES, 400.0, "seeds 0 to 2")
+
+
 FIGURES: Mapping[str, Callable[[], Figure]] = {
     "field": draw_field,
     "graph": draw_graph,
@@ -159,6 +196,8 @@ FIGURES: Mapping[str, Callable[[], Figure]] = {
     "table": draw_table,
     "piles": draw_piles,
     "scores": draw_scores,
+    "throughput": draw_throughput,
+    "many runs": draw_many_runs,
 }
 
 

@@ -47,6 +47,7 @@ def title_of(figure: Figure) -> str:
 def test_the_public_names_are_these() -> None:
     """What other packages may rely on."""
     assert depal.studies.drawing.__all__ == [
+        "Emptied",
         "PileState",
         "Reduction",
         "ScoredLayout",
@@ -61,6 +62,7 @@ def test_the_public_names_are_these() -> None:
         "scored_front",
         "table_figure",
         "three_piles",
+        "throughput_figure",
     ]
 
 

@@ -168,6 +168,21 @@ def test_every_letter_is_large_enough_at_a_thousand_pixels(name: str) -> None:
                 "After Fig. 10 and Eq. (3), section III-C · scores in m of h · w = 0.2",
             },
         ),
+        (
+            "throughput",
+            {
+                "10 deliveries: 420 boxes/h in the median, arm motion 88 % of the time",
+                "line: target of the median, 400",
+                r"a_long_name\$…",
+                "dev-001",
+                "389",
+                "boxes/h",
+                "s a box",
+                "reader 0 %",
+                "planning 0.4 %",
+                "Physics, motion planning and suction in the simulated cell · seed 0",
+            },
+        ),
     ],
 )
 def test_a_figure_says_what_was_found_and_where_it_comes_from(name: str, said: set[str]) -> None:

@@ -1,10 +1,13 @@
 """Measured figures beside their targets."""
 
+import math
 from collections.abc import Sequence
 
 from depal.app.files import Json
 from depal.app.reports.report import Report, plain_table, verdict
 from depal.studies.bench import Figure
+
+_SIGNS = {"lower": "<=", "higher": ">="}
 
 
 def bench_report(part: str, figures: Sequence[Figure]) -> Report:
@@ -20,11 +23,11 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
     table = plain_table(f"{part}: medians", "figure", "value", "target", "unit", "n", "peers", "")
     fields: list[Json] = []
     for figure in figures:
-        sign = "<=" if figure.better == "lower" else ">="
+        aim = f"{_SIGNS[figure.better]} {figure.target:g}"
         table.row(
             figure.name,
             f"{figure.value:.3g}",
-            f"{sign} {figure.target:g}",
+            "" if math.isnan(figure.target) else aim,
             figure.unit,
             str(figure.n),
             ", ".join(f"{peer.name} {peer.value:.3g}" for peer in figure.peers),
@@ -38,6 +41,7 @@ def bench_report(part: str, figures: Sequence[Figure]) -> Report:
                 "target": figure.target,
                 "better": figure.better,
                 "n": figure.n,
+                "peer": figure.peer,
                 "peers": {peer.name: peer.value for peer in figure.peers},
             }
         )

@@ -3,7 +3,7 @@
 import asyncio
 import time
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from depal.app.files import write_json
@@ -88,7 +88,7 @@ class Job:
     requests: tuple[Request, ...]
     settings: Settings
     seed: int = 0
-    sight: SightSettings = SightSettings()
+    sight: SightSettings = field(default_factory=SightSettings)
     cone: bool = True
 
 

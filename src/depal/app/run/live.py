@@ -54,6 +54,8 @@ class LiveView:
         left = self._work.departures.count
         note = self._note
         why = "looking at the pallet" if note is None else f"next: {note.target}: {note.why}"
+        if left == self._boxes:
+            why = "the pallet is empty"
         return f"{self._work.now:.0f} s, {left} of {self._boxes} boxes off the pallet\n{why}"
 
     def __rich__(self) -> RenderableType:

@@ -22,7 +22,6 @@ from depal.executive.journal import Journal, MemoryJournal, SqliteJournal
 from depal.executive.record import JOURNAL, open_record
 from depal.executive.schema import Repository
 
-
 CHOICES, RESULT = "choices.jsonl", "run.json"
 
 

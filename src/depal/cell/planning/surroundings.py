@@ -10,7 +10,6 @@ from depal.geometry import OrientedBox, Pose
 from depal.logistics.placing import Spot
 from depal.motion.collision import Scene, fixed_solids
 
-
 SEAM = 0.01
 """A column below a box is this much smaller than the box, for poses are not exact [m]."""
 

@@ -13,7 +13,6 @@ from depal.motion.moves import Kind, Part
 from depal.motion.timing import Leg, time_path
 from depal.ports import Trajectory
 
-
 GENTLE = 0.5
 """Share of the straight speed at which a box is pulled out of the pile."""
 
@@ -74,4 +73,5 @@ def rebased(path: Array, start: Array) -> Array:
         start: (6,) where the arm really is, not far from the path's start [rad].
     """
     share = np.linspace(1.0, 0.0, len(path))[:, None]
-    return path + share * (start - path[0])
+    out: Array = path + share * (start - path[0])
+    return out

@@ -1,8 +1,8 @@
 """The primitives of `check`: show the held box to the reader, read its barcode."""
 
+from depal.cell.guards import Guards
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
-from depal.cell.guards import Guards
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace

@@ -1,9 +1,9 @@
 """The primitives of `query` and `leave`: find a place, carry the box there, set it down."""
 
 from depal.cell.departures import Fate
+from depal.cell.guards import LOST, Guards
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
-from depal.cell.guards import LOST, Guards
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace
@@ -30,6 +30,9 @@ class Leaving:
         plan = await self._desk.carry(box, place)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
+        if "To" not in context.args and plan.place != place:
+            place = plan.place  # from where the arm is another of its places can be reached
+            self._work.tell([(f"{box}.target", place)], "cell")
         await context.checkpoint()
         self._desk.clear_view_later(box, plan.motion)
         guard = self._guards.holding(lambda: context.stop_reason)

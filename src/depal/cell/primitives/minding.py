@@ -1,6 +1,5 @@
 """The primitives of `recover` and `ask_person`: a person decides."""
 
-from depal.cell.pile import above_deck
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report
@@ -34,8 +33,7 @@ class Minding:
     async def look_again(self, context: Context) -> Report:
         """Looks for the box after a fault."""
         box = BoxId(context.args["Box"])
-        view = await self._work.ports.sight.look()
-        self._work.pile.see(above_deck(view, self._work.layout.pallet))
+        self._work.pile.see(await self._work.ports.sight.look())
         facts = [(f"{box}.retried", True)]
         if self._work.pile.get(box) is not None:
             return Report((*facts, (f"{box}.fault", None)))

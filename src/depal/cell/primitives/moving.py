@@ -1,7 +1,7 @@
 """The primitive of `move` that differs: reach a box that stands in a place."""
 
-from depal.cell.planning.desk import Desk
 from depal.cell.guards import Guards
+from depal.cell.planning.desk import Desk
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId

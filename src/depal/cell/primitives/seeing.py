@@ -2,7 +2,6 @@
 
 from depal.cell.choosing import Choice, choose, priority_of
 from depal.cell.departures import Fate
-from depal.cell.pile import above_deck
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.workplace import Workplace
@@ -27,7 +26,7 @@ class Seeing:
         """Takes a picture and finds the boxes; what it learns of each is a fact of its own."""
         work = self._work
         view = await work.ports.sight.look()
-        work.pile.see(above_deck(view, work.layout.pallet))
+        work.pile.see(view)
         learned: list[Change] = []
         for box in work.pile.boxes:
             if isinstance(box, Recognition) and not context.facts.get(f"{box.id}.known"):

@@ -1,8 +1,8 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
+from depal.cell.guards import Guards
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.guards import Guards
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report

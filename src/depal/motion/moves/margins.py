@@ -31,6 +31,9 @@ AFTER = 0.05
 LIFT = 0.008
 """A box is lifted by this before it is pulled out [m]."""
 
+BEYOND = 0.05
+"""A way out of the pile is at least this long: a held box hangs lower than it stood [m]."""
+
 FURTHEST = 0.9
 """No straight move out is longer [m]."""
 

@@ -10,7 +10,7 @@ from depal.domain import Approach, CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
-from depal.motion.moves.margins import BEFORE, CLOSE, DEEPER, FINE, LIFT, OPEN
+from depal.motion.moves.margins import BEFORE, BEYOND, CLOSE, DEEPER, FINE, LIFT, OPEN
 from depal.motion.moves.reach import Reach, scaled
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort, Found
@@ -192,7 +192,7 @@ def _way_out(
         return None
     ways = (UP,) if grasp.approach is Approach.VERTICAL else (scaled(normal, -1.0), UP)
     for way in ways:
-        out = reach.way_out(lift[-1], way, holding, clear)
+        out = reach.way_out(lift[-1], way, holding, clear, round(BEYOND / PITCH))
         if isinstance(out, str):
             reasons.append(out)
             continue

@@ -1,8 +1,8 @@
 """A gripper whose vacuum comes and breaks as a test says."""
 
 import asyncio
-from math import inf
 from dataclasses import dataclass, field
+from math import inf
 
 from depal.domain import Cup
 

@@ -29,7 +29,7 @@ class Figure:
         name: what was measured.
         value: the median of the repetitions.
         unit: of value, target and peers.
-        target: what it should reach.
+        target: what it should reach; nan where it only stands beside its peers.
         better: whether lower or higher values are better.
         n: how many repetitions.
         peers: others at the same work, where they are installed.
@@ -44,10 +44,17 @@ class Figure:
     peers: tuple[Peer, ...] = ()
 
     @property
+    def peer(self) -> float | None:
+        """The first peer's value; None where there is none."""
+        return self.peers[0].value if self.peers else None
+
+    @property
     def met(self) -> bool:
-        """Whether the value reaches the target."""
+        """Whether the value reaches the target, where there is one."""
         if math.isnan(self.value):
             return False
+        if math.isnan(self.target):
+            return True
         return self.value <= self.target if self.better == "lower" else self.value >= self.target
 
 

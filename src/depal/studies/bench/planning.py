@@ -1,4 +1,4 @@
-"""Kinematics, collision checks and whole motions: how fast, how sure, how short."""
+"""Kinematics, collision checks, whole motions, places: how fast, how sure, how short, how full."""
 
 import math
 import time
@@ -17,6 +17,7 @@ from depal.motion.collision import STEP, Body, Checker, Hand, Margins, Scene, fi
 from depal.motion.collision.checking import Case, first_hit
 from depal.motion.kinematics import Kinematics, keep_within, rows_of, solve_branches
 from depal.studies.bench.figure import Figure, Peer, median_seconds
+from depal.studies.bench.placing import placing_figures
 from depal.studies.bench.planning_peer import Query, ompl_ways
 from depal.studies.bench.planning_referee import Referee
 from depal.studies.bench.planning_work import Emptying, Motion
@@ -58,6 +59,7 @@ def bench_planning(
         lambda: kinematics_figures(Kinematics(layout.robot), seed),
         lambda: collision_figures(layout, seed),
         lambda: motion_figures(layout, seed, deliveries),
+        placing_figures,
     ]
     figures: list[Figure] = []
     for done, measure in enumerate(measures):

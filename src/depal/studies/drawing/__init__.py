@@ -12,8 +12,10 @@ from depal.studies.drawing.reduction import Reduction, reduction_over_weight
 from depal.studies.drawing.save import save_figure
 from depal.studies.drawing.scores import ScoredLayout, scored_front
 from depal.studies.drawing.table import TableRow, table_figure
+from depal.studies.drawing.throughput import Emptied, throughput_figure
 
 __all__ = [
+    "Emptied",
     "PileState",
     "Reduction",
     "ScoredLayout",
@@ -28,4 +30,5 @@ __all__ = [
     "scored_front",
     "table_figure",
     "three_piles",
+    "throughput_figure",
 ]
