@@ -238,3 +238,31 @@ def test_a_held_box_may_rub_along_cases_by_the_margin_and_no_deeper(
         assert Checker(body, hand, case, rubbing).free(q)
     if gap < -slack:
         assert not Checker(body, hand, wall, rubbing).free(q)
+
+
+@given(st.floats(-0.009, 0.02), st.floats(0.0, 0.012))
+def test_a_careful_box_reaches_no_deeper_than_it_seems_to(gap: float, deeper: float) -> None:
+    """Touching boxes seem to overlap by the errors of their poses; more than that is a push."""
+    layout = shipped_cell("default")
+    body, q = Body.of(layout), np.radians((0.0, -75.0, 85.0, 0.0, -10.0, 0.0))
+    held = OrientedBox(Pose((0.36, 0.0, 0.0)), (0.30, 0.30, 0.30))
+    flange = body.kinematics.flange(q)
+    seen = OrientedBox(flange @ Pose((0.36, 0.30 + gap, 0.0)), (0.30, 0.30, 0.30))
+    pushed = OrientedBox(flange @ Pose((0.36, 0.30 + gap - deeper, 0.0)), (0.30, 0.30, 0.30))
+    hand, margins = Hand.of(layout.tool, held=held), Margins(pile=-0.012, held=0.0)
+
+    def careful(box: OrientedBox) -> Checker:
+        return Checker(body, hand, Scene.of([], [("crate", box)]), margins)
+
+    rubbing = careful(seen).rubbing(q, 0.003)
+    assert rubbing.free(q)
+    depth = max(0.0, -gap)
+    there = Checker(
+        body,
+        hand,
+        Scene.of([], [("crate", pushed)]),
+        margins,
+        rubbed=np.array([min(depth + 0.003, 0.012)]),
+    )
+    if deeper - max(0.0, gap) > 0.0045:
+        assert not there.free(q)

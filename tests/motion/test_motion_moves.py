@@ -16,7 +16,7 @@ from depal.logistics import read_delivery
 from depal.motion.collision import Scene, fixed_solids, held_box
 from depal.motion.grasping import grasps
 from depal.motion.moves import Berth, Kind, Mover, NoMotion, Part, Pick, Put
-from depal.motion.moves.margins import CLOSE, OPEN
+from depal.motion.moves.margins import BEYOND, CLOSE, OPEN
 from depal.motion.planning.free import Effort
 from depal.studies.bench.planning_referee import Referee
 from depal.studies.real import perceived_stack, unload_delivery
@@ -116,6 +116,8 @@ def test_a_box_comes_out_clear_and_rubs_no_deeper_than_it_may(job: Job) -> None:
     pick = pick_of(job)
     assert pick.lift.touching
     assert pick.out.touching
+    frames = [MOVER.body.kinematics.frames(pick.out.path[row])[6][:, 3] for row in (0, -1)]
+    assert math.dist(*frames) > BEYOND - 1e-9
     held = held_box(pick.grasp, job.box.size)
     referee = Referee(CELL, job.solids, held, folded=pick.grasp.folded)
     for q in finely(np.concatenate((pick.lift.path, pick.out.path))):

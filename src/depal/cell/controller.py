@@ -4,8 +4,8 @@ import asyncio
 from collections.abc import Mapping, Sequence
 
 from depal.cell.departures import Fate
-from depal.cell.planning.desk import Desk
 from depal.cell.guards import Guards
+from depal.cell.planning.desk import Desk
 from depal.cell.primitives.checking import Checking
 from depal.cell.primitives.exchanging import Exchanging
 from depal.cell.primitives.leaving import Leaving
@@ -24,7 +24,7 @@ from depal.executive.runtime import Primitive, Runtime
 from depal.executive.schema import Repository
 from depal.ports import TAKEN, Question
 
-STORE, ASIDE = "store", "set_aside"
+STORE, ASIDE, EMPTY = "store", "set_aside", "depalletize"
 
 FIRST = 10.0
 """A priority above that of any request."""
@@ -59,7 +59,7 @@ class Controller:
         """
         for request in requests:
             self.work.wishes.add(request)
-        self.runtime.allocate(Call("depalletize", (PALLET,)))
+        self.runtime.allocate(Call(EMPTY, (PALLET,)))
         await self._ended.wait()
         await self.runtime.close()
 
@@ -76,7 +76,7 @@ class Controller:
                 loop.call_soon(self._end_if_done)
 
     def _end_if_done(self) -> None:
-        if not self.runtime.engine.state.trees:
+        if not self.runtime.engine.state.trees and not self._later:
             self._ended.set()
 
     def _answer_faults(self) -> None:
@@ -84,7 +84,12 @@ class Controller:
         state = self.runtime.engine.state
         for number, tree in list(state.trees.items()):
             schema, args = tree.root.node.schema.name, tree.root.node.args
-            if tree.withdrawn is not None or schema not in {STORE, ASIDE}:
+            if tree.withdrawn is not None:
+                continue
+            if schema == EMPTY and state.facts.get(f"{args[0]}.fault"):
+                # Nobody can see or choose any more: what has begun ends, then the run does.
+                self.runtime.withdraw(number, str(state.facts[f"{args[0]}.fault"]))
+            if schema not in {STORE, ASIDE}:
                 continue
             box = BoxId(args[0])
             if state.facts.get(f"{box}.on_floor"):
@@ -96,6 +101,7 @@ class Controller:
 
     def _recover(self, number: int, box: BoxId) -> None:
         self.runtime.withdraw(number, "it lies on the floor")
+        self.desk.forget_carry(box)
         self.runtime.allocate(Call("recover", (box,)))
 
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
@@ -108,6 +114,7 @@ class Controller:
         runtime.withdraw(number, fault)
         runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
         if not taken:
+            self.desk.forget_pick(box)
             work.left_behind[box] = fault
             work.gone(box).set()
         elif schema == STORE:
@@ -115,7 +122,11 @@ class Controller:
         else:
             task = asyncio.get_running_loop().create_task(self._hand_over(box, fault))
             self._later.add(task)
-            task.add_done_callback(self._later.discard)
+            task.add_done_callback(self._handed_over)
+
+    def _handed_over(self, task: asyncio.Task[None]) -> None:
+        self._later.discard(task)
+        self._end_if_done()
 
     async def _hand_over(self, box: BoxId, fault: str) -> None:
         """A person takes the box out of the gripper."""

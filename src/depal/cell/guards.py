@@ -27,6 +27,8 @@ class Guards:
     def holding(self, *more: Callable[[], str | None]) -> Guard:
         """The vacuum breaks."""
         before = self._gripper.vacuum()
+        if not any(before.values()):  # it broke while nobody watched: at rest, between motions
+            return lambda: LOST
 
         def guard() -> str | None:
             now = self._gripper.vacuum()

@@ -1,24 +1,68 @@
-"""What the cell believes stands on the pallet: the last look, and what a look may have missed."""
+"""What the cell believes stands on the pallet: all looks together, and what one may have missed."""
 
-from dataclasses import replace
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
 
 from depal.domain import BoxId, Gtin, Perceived, Recognition
+from depal.geometry import OrientedBox, Pose
 from depal.ports import View
 
 MISSED = 3
 """So many looks in a row may miss a box before it is believed to be gone."""
 
 
+MOVED = 0.015
+"""A box that a look shows this far from where it was has moved; nearer is noise [m]."""
+
+LOOKS = 8
+"""So many looks at a box count together at the most."""
+
+LEVEL = 0.015
+"""A box whose bottom is this near to what could carry it stands on it [m]."""
+
+SQUARE = math.radians(1.5)
+"""A box that is turned less than this against the pallet stands square on it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Deck:
+    """The pallet under the boxes, which is known exactly.
+
+    Attributes:
+        height: of its top in the cell frame [m].
+        yaw: of its long side in the cell frame [rad].
+    """
+
+    height: float
+    yaw: float
+
+    @classmethod
+    def of(cls, cell_from_pallet: Pose) -> "Deck":
+        """Of a pallet at a pose."""
+        x, y = cell_from_pallet.rotation[0][0], cell_from_pallet.rotation[1][0]
+        return cls(cell_from_pallet.translation[2], math.atan2(y, x))
+
+
 class Pile:
     """The boxes on the pallet, kept from look to look.
 
-    A box that a look does not show may be hidden by the arm or by others; it is remembered where
-    it was. A box that was taken does not come back by itself.
+    Where a box has not moved, looks are averaged. A box that a look does not show may be hidden by
+    the arm or by others; it is remembered where it was. A box that was taken does not come back by
+    itself.
     """
 
-    def __init__(self) -> None:
-        """Nothing was seen yet."""
+    def __init__(self, deck: Deck | None = None) -> None:
+        """Nothing was seen yet.
+
+        Args:
+            deck: what the boxes stand on, where it is known.
+        """
+        self._deck = deck
         self._boxes: dict[BoxId, Perceived] = {}
+        self._looks: dict[BoxId, int] = {}
         self._missed: dict[BoxId, int] = {}
         self._taken: set[BoxId] = set()
         self._read: dict[BoxId, Gtin] = {}
@@ -33,7 +77,8 @@ class Pile:
             self._missed[name] = self._missed.get(name, 0) + 1
             if self._missed[name] >= MISSED:
                 del self._boxes[name]
-        self._boxes.update(found)
+        for name, box in found.items():
+            self._boxes[name] = self._merged(name, box)
 
     def take(self, box: BoxId) -> None:
         """A box was lifted off."""
@@ -51,17 +96,31 @@ class Pile:
 
     @property
     def boxes(self) -> tuple[Perceived, ...]:
-        """What stands there, by name."""
-        return tuple(self._known(self._boxes[name]) for name in sorted(self._boxes))
+        """What stands there, by name; level and square where it seems so."""
+        known = [self._known(self._boxes[name]) for name in sorted(self._boxes)]
+        return tuple(known) if self._deck is None else settled(known, self._deck)
 
     def get(self, box: BoxId) -> Perceived | None:
         """A box by its name."""
-        found = self._boxes.get(box)
-        return None if found is None else self._known(found)
+        return next((found for found in self.boxes if found.id == box), None)
 
     def __len__(self) -> int:
         """How many boxes stand there."""
         return len(self._boxes)
+
+    def _merged(self, name: BoxId, box: Perceived) -> Perceived:
+        """A box as all looks together show it."""
+        before = self._boxes.get(name)
+        if before is None or math.dist(before.shape.centre, box.shape.centre) > MOVED:
+            self._looks[name] = 1
+            return box
+        count = self._looks.get(name, 1)
+        self._looks[name] = min(count + 1, LOOKS)
+        old, new = np.array(before.shape.centre), np.array(box.shape.centre)
+        centre = (count * old + new) / (count + 1)
+        turn = _yaw(before.shape) + _turned(_yaw(box.shape) - _yaw(before.shape)) / (count + 1)
+        pose = Pose.from_yaw((float(centre[0]), float(centre[1]), float(centre[2])), turn)
+        return replace(box, shape=OrientedBox(pose, box.shape.size))
 
     def _known(self, box: Perceived) -> Perceived:
         gtin = self._read.get(box.id)
@@ -70,3 +129,63 @@ class Pile:
         if isinstance(box, Recognition):
             return replace(box, gtin=gtin)
         return Recognition(box.id, box.shape, gtin)
+
+
+def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
+    """Boxes as they can stand: square to the pallet, and on what carries them, where it is near.
+
+    Args:
+        boxes: upright, in the cell frame.
+        deck: what the lowest stand on.
+
+    Returns:
+        The same boxes in the same order.
+    """
+    listed = list(boxes)
+    done: dict[BoxId, Perceived] = {}
+    for box in sorted(listed, key=lambda each: (_bottom(each.shape), each.id)):
+        size, centre = box.shape.size, box.shape.centre
+        quarter = math.pi / 2
+        off = _yaw(box.shape) - deck.yaw
+        away = off - quarter * round(off / quarter)
+        yaw = _yaw(box.shape) - (away if abs(away) < SQUARE else 0.0)
+        bottom = _carried(box.shape, [other.shape for other in done.values()], deck)
+        x, y, _ = centre
+        pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
+        done[box.id] = replace(box, shape=OrientedBox(pose, size))
+    return tuple(done[box.id] for box in listed)
+
+
+def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck) -> float:
+    """The height of what carries a box, where something near does; else of its bottom [m]."""
+    bottom = _bottom(box)
+    heights = [deck.height]
+    heights += [_bottom(other) + other.size[2] for other in below if _over(box, other)]
+    near = [height for height in heights if abs(height - bottom) < LEVEL]
+    return max(near, default=bottom)
+
+
+def _over(box: OrientedBox, other: OrientedBox) -> bool:
+    """Whether two upright boxes overlap on the ground, roughly: by their bounding rectangles."""
+    one, two = _reach(box), _reach(other)
+    return all(
+        abs(a - b) < (r + s) / 2 - LEVEL
+        for a, b, r, s in zip(box.centre[:2], other.centre[:2], one, two, strict=True)
+    )
+
+
+def _reach(box: OrientedBox) -> tuple[float, float]:
+    along = np.abs(np.array(box.pose.rotation)[:2]) @ np.array(box.size)
+    return float(along[0]), float(along[1])
+
+
+def _bottom(box: OrientedBox) -> float:
+    return box.centre[2] - box.size[2] / 2
+
+
+def _yaw(box: OrientedBox) -> float:
+    return math.atan2(box.pose.rotation[1][0], box.pose.rotation[0][0])
+
+
+def _turned(angle: float) -> float:
+    return math.atan2(math.sin(angle), math.cos(angle))

@@ -7,7 +7,7 @@ from enum import Enum
 
 from depal.cell.charges import Charges
 from depal.cell.departures import Departure, Departures, Fate
-from depal.cell.pile import Pile
+from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
 from depal.domain import BoxId, CellLayout, Delivery, Grasp, Gtin, Perceived, PlaceId, Product
@@ -136,7 +136,7 @@ class Workplace:
     ports: Ports
     settings: Settings
     questions: Questions
-    pile: Pile = field(default_factory=Pile)
+    pile: Pile = field(init=False)
     wishes: Wishes = field(default_factory=lambda: Wishes(()))
     departures: Departures = field(default_factory=Departures)
     held: Held | None = None
@@ -145,6 +145,10 @@ class Workplace:
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
+
+    def __post_init__(self) -> None:
+        """The pile stands on the cell's pallet."""
+        self.pile = Pile(Deck.of(self.layout.pallet.cell_from_pallet))
 
     def bind(self, runtime: Runtime) -> None:
         """The executive that the primitives work for."""

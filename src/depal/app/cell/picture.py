@@ -28,8 +28,7 @@ def cell_picture(layout: CellLayout, checked: CellReport) -> Figure:
     seen = checked.sights[-1].seen
     drawn = sheet(
         _HEIGHT,
-        f"{layout.name}: {reached} of the load reached, "
-        f"{100 * seen:.0f} % of its front seen",
+        f"{layout.name}: {reached} of the load reached, {100 * seen:.0f} % of its front seen",
         "Left from above, right in space, the arm parked. Green places are reached, red ones are "
         "not; the dashed block is the room for the load, 1.75 m high.",
         f"{layout.robot.name} · {len(layout.places)} places · shares: mean over "

@@ -1,16 +1,20 @@
 """`depal run`: from options to a report."""
 
+import asyncio
 import time
 from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from depal.app.files import write_json
+from depal.app.progress import progress_bar
 from depal.app.reports.report import Report
 from depal.app.run.case2 import NAME as CASE2
 from depal.app.run.case2 import case2_delivery, case2_requests
+from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, policy_of, refuse_what_cannot_work
 from depal.app.run.live import LiveView, watched
-from depal.app.run.record import Keeper
+from depal.app.run.record import RESULT, Keeper
 from depal.app.run.summary import Left, Outcome, disagreements, run_report
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk
@@ -19,7 +23,7 @@ from depal.cell.reporting import Journalist
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import CellLayout, Delivery, Request
+from depal.domain import CellLayout, Delivery, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
@@ -96,7 +100,10 @@ def run_delivery(options: Options, *, watch: bool = False) -> Report:
     """
     job = prepared(options)
     outcome = run_job(job, record=options.record, watch=watch)
-    return run_report(outcome, options.perception)
+    report = run_report(outcome, options.perception)
+    if options.record is not None:
+        write_json(options.record / RESULT, report.fields)
+    return report
 
 
 def prepared(options: Options) -> Job:
@@ -113,7 +120,9 @@ def prepared(options: Options) -> Job:
     delivery, requests = _delivery_and_requests(options)
     refuse_what_cannot_work(layout, delivery)
     settings = Settings(
-        w=options.w, policy=policy_of(options.policy), speed=checked_speed(options.speed)
+        w=checked_share("--w", options.w),
+        policy=policy_of(options.policy),
+        speed=checked_speed(options.speed),
     )
     recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
     return Job(layout, delivery, requests, settings, options.seed, recognised, options.cone)
@@ -142,14 +151,18 @@ def run_job(job: Job, *, record: Path | None = None, watch: bool = False) -> Out
     began = time.perf_counter()
     tasks = read_shipped_tasks()
     with LocalStore() as store, Keeper.open(record, tasks) as keeper:
-        outcome = run_simulated(_run(job, store, keeper, tasks, watch=watch))
+        outcome, film = run_simulated(_run(job, store, keeper, tasks, watch=watch))
         keeper.write_choices()
-    return replace(outcome, wall_seconds=time.perf_counter() - began)
+    seconds = time.perf_counter() - began
+    if record is not None:
+        with progress_bar("Pictures") as progress:
+            film.save(record, progress)
+    return replace(outcome, wall_seconds=seconds)
 
 
 async def _run(
     job: Job, store: LocalStore, keeper: Keeper, tasks: Repository, *, watch: bool
-) -> Outcome:
+) -> tuple[Outcome, Film]:
     clock = LoopClock()
     cell = build(job.layout, job.delivery, job.seed, clock=clock, sight=job.sight)
     places = by_storage(job.layout.places, without=job.layout.aside)
@@ -163,9 +176,13 @@ async def _run(
     keeper.listen_to(notes)
     view = LiveView(work, len(job.delivery.boxes))
     view.listen_to(notes)
+    film = Film(cell, view.caption)
+    filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
         await controller.empty_pallet(job.requests)
-    return _outcome(job, work, desk, cell, keeper, times)
+    filming.cancel()
+    film.take()
+    return _outcome(job, work, desk, cell, keeper, times), film
 
 
 def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:

@@ -49,6 +49,15 @@ class LiveView:
                 label = state.trees[event.tree].nodes[event.node].node.label
                 self._doing = [*self._doing[1 - LINES :], f"{event.at:7.1f} s  {label}"]
 
+    def caption(self) -> str:
+        """What is written below a picture of this moment: two lines."""
+        left = self._work.departures.count
+        note = self._note
+        why = "looking at the pallet" if note is None else f"next: {note.target}: {note.why}"
+        if left == self._boxes:
+            why = "the pallet is empty"
+        return f"{self._work.now:.0f} s, {left} of {self._boxes} boxes off the pallet\n{why}"
+
     def __rich__(self) -> RenderableType:
         """The picture of this moment."""
         return Group(self._progress(), self._why(), self._requests(), *map(Text, self._doing))

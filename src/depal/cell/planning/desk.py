@@ -14,7 +14,16 @@ from depal.cell.planning.surroundings import Surroundings, target_of
 from depal.cell.planning.timing import Timing, rebased
 from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
-from depal.domain import Approach, BoxId, Joints, Perceived, PlaceId, Recognition, StorageKind
+from depal.domain import (
+    Approach,
+    BoxId,
+    Grasp,
+    Joints,
+    Perceived,
+    PlaceId,
+    Recognition,
+    StorageKind,
+)
 from depal.geometry import OrientedBox
 from depal.logistics.placing import MARGINS, Books, Spot, find_spots
 from depal.motion.collision.values import Array
@@ -85,6 +94,7 @@ class Desk:
         self._carries: dict[BoxId, CarryPlan] = {}
         self._searching: dict[BoxId, asyncio.Event] = {}
         self._reached: set[BoxId] = set()
+        self._lists: dict[BoxId, tuple[PlaceId, ...]] = {}
         self._next_start: Joints | None = None
         self.books = Books.empty(work.layout.places.values())
         self.planned = 0
@@ -99,18 +109,24 @@ class Desk:
     # Picking
 
     def try_pick(
-        self, box: Perceived, without: frozenset[Approach] = frozenset()
+        self,
+        box: Perceived,
+        without: frozenset[Approach] = frozenset(),
+        first: Grasp | None = None,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
 
         Args:
             box: which.
             without: ways to hold it that are of no use.
+            first: the way to hold it that is tried before all others.
         """
         start = np.array(self._next_start or self._work.ports.arm.joints())
         mass = self.mass_of(box)
         tool, front = self._work.layout.tool, self._front()
         ways = [g for g in grasps(box.shape, mass, tool, front) if g.approach not in without]
+        if first is not None:
+            ways = [first, *(grasp for grasp in ways if grasp != first)]
         scene = self._around.scene(self._work.pile)
         found = self._measured(
             lambda: self._mover.pick(start, box.shape, ways, scene, str(box.id), self._effort())
@@ -156,7 +172,7 @@ class Desk:
             return kept
         before = self.planned
         self._next_start = None
-        plan = self.try_pick(seen)
+        plan = self.try_pick(seen, first=None if kept is None else kept.grasp)
         await self.charge(self.planned - before)
         if not isinstance(plan, str):
             if kept is not None and plan.grasp != kept.grasp:
@@ -236,15 +252,18 @@ class Desk:
         load = self.load_of(box)
         if load is None:
             return f"box {box} is neither held nor about to be"
+        self._lists.setdefault(box, tuple(places))
         before, searching = self.planned, self._searching.setdefault(box, asyncio.Event())
-        plan = self._first_place(load, places)
-        if isinstance(plan, str) and box not in self._reached and box in self._picks:
-            plan = self._by_another_grasp(box, places) or plan
-        if not isinstance(plan, str):
-            self._keep_carry(plan)
-        await self.charge(self.planned - before)
-        searching.set()
-        del self._searching[box]
+        try:
+            plan = self._first_place(load, places)
+            if isinstance(plan, str) and box not in self._reached and box in self._picks:
+                plan = self._by_another_grasp(box, places) or plan
+            if not isinstance(plan, str):
+                self._keep_carry(plan)
+            await self.charge(self.planned - before)
+        finally:  # broken off or not: nobody waits for it any more
+            searching.set()
+            self._searching.pop(box, None)
         return plan
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
@@ -343,7 +362,9 @@ class Desk:
             self._next_start = kept.end
             return kept
         self._release_spot(box)
-        return await self.find_place(box, self._places_named(place))
+        there = self._places_named(place)
+        elsewhere = () if place == ASIDE else tuple(self._lists.get(box, ()))
+        return await self.find_place(box, (*there, *(p for p in elsewhere if p not in there)))
 
     def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
         """The place itself, or all of the storage that boxes are set aside into."""

@@ -57,7 +57,6 @@ class Surroundings:
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
         return Scene.of(self._fixed, cases)
 
-
     def _column(self, box: OrientedBox) -> OrientedBox | None:
         """What carries a box, seen or not: everything below it down to the deck."""
         half = float(np.abs(np.array(box.pose.rotation))[2] @ np.array(box.size)) / 2

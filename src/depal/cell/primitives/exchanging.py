@@ -43,9 +43,10 @@ class Exchanging:
     async def await_new(self, context: Context) -> Report:
         """Waits until an empty trolley is locked in the bay."""
         trolley = context.args["Trolley"]
-        asked = self._asked.pop(trolley, None)
+        asked = self._asked.get(trolley)
         if asked is not None:
-            await asked
+            await asyncio.shield(asked)  # a time-out here does not unask the person
+            del self._asked[trolley]
         if self._work.ports.bays.trolley(trolley) is None:
             return Report(outcome=Outcome.FAILED, reason=f"no trolley is locked in {trolley}")
         self._desk.exchanged(trolley)

@@ -30,6 +30,9 @@ class Leaving:
         plan = await self._desk.carry(box, place)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
+        if "To" not in context.args and plan.place != place:
+            place = plan.place  # from where the arm is another of its places can be reached
+            self._work.tell([(f"{box}.target", place)], "cell")
         await context.checkpoint()
         self._desk.clear_view_later(box, plan.motion)
         guard = self._guards.holding(lambda: context.stop_reason)

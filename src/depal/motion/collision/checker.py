@@ -21,11 +21,15 @@ from depal.motion.collision.checking import (
     first_hit_along,
 )
 from depal.motion.collision.edges import edge_is_free
+from depal.motion.collision.rubbing import overlaps
 from depal.motion.collision.values import Arm, Array, Hand, Scene, arm_of
 from depal.motion.kinematics import Kinematics
 
 STEP = 0.02
 """No point of the arm moves further between two checks [m]."""
+
+DEEPEST = 0.03
+"""Boxes whose poses are known badly do not seem to overlap by more [m]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,8 +76,19 @@ class Checker:
         scene: Scene,
         margins: Margins,
         upright: Upright | None = None,
+        rubbed: Array | None = None,
     ) -> None:
-        """For one hand in one scene."""
+        """For one hand in one scene.
+
+        Args:
+            body: the arm.
+            hand: the tool and what it holds.
+            scene: what stands around.
+            margins: how far things stay apart.
+            upright: how a held box may lean.
+            rubbed: (n,) how deep a held box may reach into each case [m]; by the margin for cases
+                if left out.
+        """
         self._upright = upright
         self._body = body
         self._hand = hand
@@ -85,7 +100,7 @@ class Checker:
             hand.solids,
             hand.holding,
             solids,
-            scene.pile,
+            np.where(scene.pile, margins.pile if rubbed is None else -rubbed, margins.held),
             body.fence,
             margins,
             np.array(upright.up if upright else (0.0, 0.0, 1.0)),
@@ -95,6 +110,23 @@ class Checker:
     def with_margins(self, margins: Margins) -> "Checker":
         """The same with other margins."""
         return Checker(self._body, self._hand, self._scene, margins, self._upright)
+
+    def rubbing(self, joints: Array, more: float) -> "Checker":
+        """The same, but a held box may reach no deeper into a case than it seems to already.
+
+        Args:
+            joints: (6,) where the box stands among others, with the errors of their poses [rad].
+            more: so much deeper it may reach [m].
+        """
+        seems = overlaps(self.case, np.asarray(joints, dtype=np.float64), DEEPEST)
+        return Checker(
+            self._body,
+            self._hand,
+            self._scene,
+            self.case.margins,
+            self._upright,
+            np.minimum(seems + more, -self.case.margins.pile),
+        )
 
     def free(self, joints: Array) -> bool:
         """Whether nothing is touched."""

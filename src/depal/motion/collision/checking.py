@@ -53,7 +53,7 @@ class Case(NamedTuple):
         hand: solids in the flange's frame; the last one is held where `holding`.
         holding: whether a box is held.
         scene: what stands around, in the cell frame.
-        pile: (n,) which of the scene's solids are cases.
+        apart: (n,) how far a held box stays from each of the scene's solids [m].
         fence: (4,) smallest x, y and greatest x, y that anything may reach [m].
         margins: how far things stay apart.
         up: (3,) the direction in the flange's frame that is to stay up.
@@ -65,7 +65,7 @@ class Case(NamedTuple):
     hand: Solids
     holding: bool
     scene: Solids
-    pile: npt.NDArray[np.bool_]
+    apart: Array
     fence: Array
     margins: Margins
     up: Array
@@ -95,13 +95,19 @@ def _turned(frame: Array, rotation: Array, out: Array) -> None:
 
 
 @loop_kernel
+def place_solid(frame: Array, centre: Array, rotation: Array, out: Array) -> None:
+    """A solid of the hand in the cell frame: (4, 3) its centre, then its rotation's rows."""
+    _placed(frame, centre, out[0])
+    _turned(frame, rotation, out[1:4])
+
+
+@loop_kernel
 def _hand_hits(case: Case, work: Array, hit: npt.NDArray[np.int64]) -> bool:
     """The hand against the scene, the floor and the fence; `work` holds its placed solids."""
     scene, margins, count = case.scene, case.margins, len(case.hand.centre)
     for part in range(count):
         centre, rotation, half = work[part, 0], work[part, 1:4], case.hand.half[part]
         held = case.holding and part == count - 1
-        margin = margins.held if held else margins.tool
         rx = abs(rotation[0, 0]) * half[0] + abs(rotation[0, 1]) * half[1]
         rx += abs(rotation[0, 2]) * half[2]
         ry = abs(rotation[1, 0]) * half[0] + abs(rotation[1, 1]) * half[1]
@@ -116,7 +122,7 @@ def _hand_hits(case: Case, work: Array, hit: npt.NDArray[np.int64]) -> bool:
             hit[1] = FENCE
             return True
         for k in range(len(scene.centre)):
-            m = margins.pile if held and case.pile[k] else margin
+            m = case.apart[k] if held else margins.tool
             if (
                 scene.low[k, 0] > centre[0] + rx + m
                 or scene.high[k, 0] < centre[0] - rx - m
@@ -246,8 +252,7 @@ def hits(
             hit[0], hit[1] = HAND, TILT
             return True
     for part in range(len(case.hand.centre)):
-        _placed(frames[6], case.hand.centre[part], work[part, 0])
-        _turned(frames[6], case.hand.rotation[part], work[part, 1:4])
+        place_solid(frames[6], case.hand.centre[part], case.hand.rotation[part], work[part])
     if _hand_hits(case, work, hit):
         return True
     for c in range(len(case.arm.link)):

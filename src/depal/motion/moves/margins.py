@@ -7,6 +7,9 @@ from depal.motion.collision import Margins
 CLOSE = Margins(arm=0.02, tool=0.004, held=0.004, pile=-0.012, floor=0.01)
 """Near boxes, in straight parts: the held box may rub along cases, by the errors of its pose."""
 
+DEEPER = 0.003
+"""A careful way out takes a box no deeper into its neighbours than it seems to be already [m]."""
+
 ENTRY = Margins(arm=0.02, tool=0.005, held=0.004, pile=0.004, floor=0.01)
 """Going into a place: narrow, but clear."""
 
@@ -27,6 +30,9 @@ AFTER = 0.05
 
 LIFT = 0.008
 """A box is lifted by this before it is pulled out [m]."""
+
+BEYOND = 0.05
+"""A way out of the pile is at least this long: a held box hangs lower than it stood [m]."""
 
 FURTHEST = 0.9
 """No straight move out is longer [m]."""

@@ -1,5 +1,6 @@
 """To a box, and straight out of the pile with it."""
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ from depal.domain import Approach, CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
-from depal.motion.moves.margins import BEFORE, CLOSE, FINE, LIFT, OPEN
+from depal.motion.moves.margins import BEFORE, BEYOND, CLOSE, DEEPER, FINE, LIFT, OPEN
 from depal.motion.moves.reach import Reach, scaled
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort, Found
@@ -46,6 +47,25 @@ class _Option:
         return Pick(self.grasp, approach, self.lift, self.out)
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Job:
+    """A box that is to be taken.
+
+    Attributes:
+        reach: of the arm.
+        start: (6,) where the arm is [rad].
+        box: in the cell frame.
+        scene: all that stands around, the box included.
+        without: the same, the box left out.
+    """
+
+    reach: Reach
+    start: Array
+    box: OrientedBox
+    scene: Scene
+    without: Scene
+
+
 def plan_pick(
     reach: Reach,
     start: Array,
@@ -58,7 +78,8 @@ def plan_pick(
     """To a box, and straight out of the pile with it.
 
     Grasps come in the order of preference: the first one with an easy way through free space is
-    taken. Only where none has one a way is searched for, to all of them at once.
+    taken. Only where none has one a way is searched for, to all of them at once. Ways out that
+    take the box deeper into its neighbours are a last resort.
 
     Args:
         reach: of the arm.
@@ -69,12 +90,12 @@ def plan_pick(
         name: of the box in the scene.
         effort: for free space.
     """
-    without = scene.without(name)
+    job = _Job(reach, start, box, scene, scene.without(name))
     reasons: list[str] = []
     kept: list[_Option] = []
     empty = {folded: reach.checker(scene, OPEN, folded=folded) for folded in (False, True)}
-    for grasp in grasps:
-        options = list(_options(reach, start, box, grasp, scene, without, reasons))[:BRANCHES]
+    for careful, grasp in itertools.product((True, False), grasps):
+        options = list(itertools.islice(_options(job, grasp, reasons, careful=careful), BRANCHES))
         if not options:
             continue
         way = reach.free.quick(empty[grasp.folded], start, _ends(options), effort)
@@ -106,7 +127,8 @@ def why_no_pick(
         name: of the box in the scene.
     """
     reasons: list[str] = []
-    for _ in _options(reach, near, box, grasp, scene, scene.without(name), reasons):
+    job = _Job(reach, near, box, scene, scene.without(name))
+    for _ in _options(job, grasp, reasons, careful=False):
         return ""
     return str(NoMotion.because(reasons))
 
@@ -119,16 +141,16 @@ def _option_at(options: Sequence[_Option], way: Found) -> _Option:
     return next(option for option in options if np.array_equal(option.back[-1], way.path[-1]))
 
 
-def _options(
-    reach: Reach,
-    start: Array,
-    box: OrientedBox,
-    grasp: Grasp,
-    scene: Scene,
-    without: Scene,
-    reasons: list[str],
-) -> Iterator[_Option]:
-    """Configurations in which a grasp works, as far as its straight parts go."""
+def _options(job: _Job, grasp: Grasp, reasons: list[str], *, careful: bool) -> Iterator[_Option]:
+    """Configurations in which a grasp works, as far as its straight parts go.
+
+    Args:
+        job: the box and what stands around it.
+        grasp: how it would be held.
+        reasons: receives why others do not work.
+        careful: whether the box may reach no deeper into others than it seems to already.
+    """
+    reach, start, box = job.reach, job.start, job.box
     touch = box.pose @ grasp.box_from_flange
     normal = into_face(touch, grasp, reach.layout)
     how = grasp.approach.value
@@ -136,9 +158,9 @@ def _options(
     if not len(branches):
         reasons.append(f"no reach for a {how} grasp")
         return
-    near = reach.checker(scene, CLOSE, folded=grasp.folded)
+    near = reach.checker(job.scene, CLOSE, folded=grasp.folded)
     empty = near.with_margins(OPEN)
-    holding = reach.checker(without, CLOSE, grasp, box.size)
+    holding = reach.checker(job.without, CLOSE, grasp, box.size)
     clear = holding.with_margins(OPEN)
     for q in branches:
         if hit := near.why(q):
@@ -148,7 +170,8 @@ def _options(
         if isinstance(back, str):
             reasons.append(back)
             continue
-        parts = _way_out(reach, q, grasp, normal, (holding, clear), reasons)
+        rubbing = holding.rubbing(q, DEEPER) if careful else holding
+        parts = _way_out(reach, q, grasp, normal, (rubbing, clear), reasons)
         if parts is not None:
             yield _Option(grasp, back, *parts)
 
@@ -169,7 +192,7 @@ def _way_out(
         return None
     ways = (UP,) if grasp.approach is Approach.VERTICAL else (scaled(normal, -1.0), UP)
     for way in ways:
-        out = reach.way_out(lift[-1], way, holding, clear)
+        out = reach.way_out(lift[-1], way, holding, clear, round(BEYOND / PITCH))
         if isinstance(out, str):
             reasons.append(out)
             continue
