@@ -165,7 +165,9 @@ class Cell:
         self.work = Workplace(self.layout, note(self.boxes), ports, self.settings, questions)
         self.desk = Desk(self.work, self.times, seed=self.seed)
         for place in self.full:
-            self.desk.books = self.desk.books.put(place, filling(self.layout, place))
+            self.desk.promises.books = self.desk.promises.books.put(
+                place, filling(self.layout, place)
+            )
 
     def works(self, *requests: Request) -> "Cell":
         """Empties the pallet, to the end.
@@ -212,7 +214,7 @@ class Cell:
         """Where the books say that the boxes stand."""
         return {
             str(box.id): str(place_map.place.id)
-            for place_map in self.desk.books.maps
+            for place_map in self.desk.promises.books.maps
             for box in place_map.boxes
             if not box.id.startswith("full")
         }

@@ -101,7 +101,7 @@ class Controller:
 
     def _recover(self, number: int, box: BoxId) -> None:
         self.runtime.withdraw(number, "it lies on the floor")
-        self.desk.forget_carry(box)
+        self.desk.promises.forget_carry(box)
         self.runtime.allocate(Call("recover", (box,)))
 
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
@@ -114,7 +114,7 @@ class Controller:
         runtime.withdraw(number, fault)
         runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
         if not taken:
-            self.desk.forget_pick(box)
+            self.desk.promises.forget_pick(box)
             work.left_behind[box] = fault
             work.gone(box).set()
         elif schema == STORE:

@@ -223,7 +223,7 @@ def _outcome(
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,
         shares=shares,
-        plan_seconds=tuple(desk.spent),
+        plan_seconds=tuple(desk.planner.spent),
         policy=job.settings.policy.value,
         w=job.settings.w,
         seed=job.seed,
