@@ -10,6 +10,7 @@ from depal.cell.controller import Controller
 from depal.cell.departures import Fate
 from depal.cell.files import shipped_cell
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import ChoiceNote, Journalist
 from depal.cell.tasks import read_shipped_tasks
@@ -163,7 +164,7 @@ class Cell:
         ports = timed(ports, self.times)
         questions = Questions(ports.person, clock)
         self.work = Workplace(self.layout, note(self.boxes), ports, self.settings, questions)
-        self.desk = Desk(self.work, self.times, seed=self.seed)
+        self.desk = Desk(self.work, Planner(self.work, self.times, seed=self.seed))
         for place in self.full:
             self.desk.promises.books = self.desk.promises.books.put(
                 place, filling(self.layout, place)

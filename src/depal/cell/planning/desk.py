@@ -1,14 +1,11 @@
 """The planning desk: plans motions from what the cell believes, ahead of the arm where it can."""
 
-from collections.abc import Callable
-
 from depal.cell.planning.carrying import Carrying
 from depal.cell.planning.picking import Picking
 from depal.cell.planning.planner import Planner
 from depal.cell.planning.presenting import Presenting
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.viewing import Viewing
-from depal.cell.timekeeping import Timekeeper
 from depal.cell.workplace import Workplace
 
 
@@ -24,27 +21,16 @@ class Desk:
         viewing: when the pallet can be seen again.
     """
 
-    def __init__(
-        self,
-        work: Workplace,
-        times: Timekeeper,
-        *,
-        cone: bool = True,
-        seed: int = 0,
-        stopwatch: Callable[[], float] | None = None,
-    ) -> None:
+    def __init__(self, work: Workplace, planner: Planner) -> None:
         """A desk with nothing on it.
 
         Args:
             work: what the cell believes.
-            times: told when planning is charged.
-            cone: whether motions respect the suction's limits.
-            seed: of the planner's samples.
-            stopwatch: real time for reports [s]; nothing is decided by it.
+            planner: of this cell's motions.
         """
-        self.planner = Planner(work, times, cone=cone, seed=seed, stopwatch=stopwatch)
+        self.planner = planner
         self.promises = Promises(work.layout)
-        self.picking = Picking(work, self.planner, self.promises)
-        self.carrying = Carrying(work, self.planner, self.promises, self.picking)
-        self.presenting = Presenting(work, self.planner, self.promises)
-        self.viewing = Viewing(work, self.planner.mover.body.kinematics)
+        self.picking = Picking(work, planner, self.promises)
+        self.carrying = Carrying(work, planner, self.promises, self.picking)
+        self.presenting = Presenting(work, planner, self.promises)
+        self.viewing = Viewing(work, planner.mover.body.kinematics)
