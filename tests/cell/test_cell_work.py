@@ -1,5 +1,6 @@
 """The controller with fake devices in simulated time: whole runs of a few boxes."""
 
+import dataclasses
 import hashlib
 import os
 import subprocess
@@ -91,6 +92,19 @@ def test_a_box_behind_another_waits_for_it() -> None:
     ]
     cell.works(Request(priority=1.0, box=name(1))).assert_whole()
     assert list(cell.fates) == ["b2", "b1"]
+
+
+@pytest.mark.parametrize("error", [-0.0075, 0.0075])
+def test_a_box_that_is_seen_a_little_too_low_or_high_is_taken_nevertheless(error: float) -> None:
+    """Too low it would stand in the wood of the pallet."""
+    cell = Cell(1)
+    ((seen,),) = cell.sight.script
+    assert seen is not None
+    x, y, z = seen.shape.centre
+    shape = OrientedBox.upright((x, y, z + error), seen.shape.size)
+    cell.sight.script = [(dataclasses.replace(seen, shape=shape),)]
+    cell.works().assert_whole()
+    assert cell.fates == {"b1": STORED}
 
 
 # Boxes that nobody knows

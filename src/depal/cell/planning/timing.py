@@ -13,7 +13,7 @@ from depal.motion.moves import Kind, Part
 from depal.motion.timing import Leg, time_path
 from depal.ports import Trajectory
 
-GENTLE = 0.5
+GENTLE = 0.7
 """Share of the straight speed at which a box is pulled out of the pile."""
 
 HERE = 0.01
