@@ -259,7 +259,7 @@ def test_a_full_place_has_its_trolley_exchanged_and_the_box_goes_into_the_new_on
     stored = {m.box: m.at for m in cell.store.movements}
     assert stored[name(1)] > at
     assert cell.booked["b1"] == TROLLEYS[0]
-    assert f"full {TROLLEYS[0]}" not in cell.desk.books.at(TROLLEYS[0]).by_id
+    assert f"full {TROLLEYS[0]}" not in cell.desk.promises.books.at(TROLLEYS[0]).by_id
 
 
 def test_of_several_places_the_first_with_room_is_taken_before_any_exchange() -> None:
