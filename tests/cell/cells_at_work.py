@@ -10,6 +10,7 @@ from depal.cell.controller import Controller
 from depal.cell.departures import Fate
 from depal.cell.files import shipped_cell
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import ChoiceNote, Journalist
 from depal.cell.tasks import read_shipped_tasks
@@ -163,9 +164,11 @@ class Cell:
         ports = timed(ports, self.times)
         questions = Questions(ports.person, clock)
         self.work = Workplace(self.layout, note(self.boxes), ports, self.settings, questions)
-        self.desk = Desk(self.work, self.times, seed=self.seed)
+        self.desk = Desk(self.work, Planner(self.work, self.times, seed=self.seed))
         for place in self.full:
-            self.desk.books = self.desk.books.put(place, filling(self.layout, place))
+            self.desk.promises.books = self.desk.promises.books.put(
+                place, filling(self.layout, place)
+            )
 
     def works(self, *requests: Request) -> "Cell":
         """Empties the pallet, to the end.
@@ -212,7 +215,7 @@ class Cell:
         """Where the books say that the boxes stand."""
         return {
             str(box.id): str(place_map.place.id)
-            for place_map in self.desk.books.maps
+            for place_map in self.desk.promises.books.maps
             for box in place_map.boxes
             if not box.id.startswith("full")
         }

@@ -108,8 +108,8 @@ def test_only_the_first_plan_is_charged_when_the_arm_moves_ever_after() -> None:
     """A pick and a place for every box; all but the first pick are planned during motions."""
     cell = Cell(3)
     assert planning(cell) == pytest.approx(0.2)
-    assert cell.desk.planned == 6
-    assert len(cell.desk.spent) == 6
+    assert cell.desk.planner.planned == 6
+    assert len(cell.desk.planner.spent) == 6
 
 
 def test_a_dearer_plan_makes_the_run_longer_by_what_is_not_in_the_shadow() -> None:
@@ -139,7 +139,7 @@ def test_a_charge_is_slept_once_for_each_motion() -> None:
 
     async def charged(motions: int) -> None:
         began = asyncio.get_running_loop().time()
-        await cell.desk.charge(motions)
+        await cell.desk.planner.charge(motions)
         took.append(asyncio.get_running_loop().time() - began)
 
     calls: list[Callable[[], Awaitable[None]]] = [lambda n=n: charged(n) for n in (0, 1, 3)]

@@ -1,5 +1,6 @@
 """The controller with fake devices in simulated time: whole runs of a few boxes."""
 
+import dataclasses
 import hashlib
 import os
 import subprocess
@@ -91,6 +92,19 @@ def test_a_box_behind_another_waits_for_it() -> None:
     ]
     cell.works(Request(priority=1.0, box=name(1))).assert_whole()
     assert list(cell.fates) == ["b2", "b1"]
+
+
+@pytest.mark.parametrize("error", [-0.0075, 0.0075])
+def test_a_box_that_is_seen_a_little_too_low_or_high_is_taken_nevertheless(error: float) -> None:
+    """Too low it would stand in the wood of the pallet."""
+    cell = Cell(1)
+    ((seen,),) = cell.sight.script
+    assert seen is not None
+    x, y, z = seen.shape.centre
+    shape = OrientedBox.upright((x, y, z + error), seen.shape.size)
+    cell.sight.script = [(dataclasses.replace(seen, shape=shape),)]
+    cell.works().assert_whole()
+    assert cell.fates == {"b1": STORED}
 
 
 # Boxes that nobody knows
@@ -245,7 +259,7 @@ def test_a_full_place_has_its_trolley_exchanged_and_the_box_goes_into_the_new_on
     stored = {m.box: m.at for m in cell.store.movements}
     assert stored[name(1)] > at
     assert cell.booked["b1"] == TROLLEYS[0]
-    assert f"full {TROLLEYS[0]}" not in cell.desk.books.at(TROLLEYS[0]).by_id
+    assert f"full {TROLLEYS[0]}" not in cell.desk.promises.books.at(TROLLEYS[0]).by_id
 
 
 def test_of_several_places_the_first_with_room_is_taken_before_any_exchange() -> None:

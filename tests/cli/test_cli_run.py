@@ -132,8 +132,9 @@ WRONG = [
     (
         ("--cell", "defalt"),
         (
-            "neither a file nor a shipped cell is called 'defalt'; expected FILE or a "
-            "shipped cell's name; did you mean 'default'? (there is: default, roll_containers, small_trolleys)"
+            "neither a file nor a shipped cell is called 'defalt'; expected FILE or a shipped "
+            "cell's name; did you mean 'default'? "
+            "(there is: default, roll_containers, small_trolleys)"
         ),
     ),
     (

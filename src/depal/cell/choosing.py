@@ -33,17 +33,17 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         The choice; its grasp is a planned pick.
     """
     graph = BlockingGraph(work.pile.boxes)
-    before = desk.planned
+    before = desk.planner.planned
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
         reason = work.left_behind.get(box.id)
         if reason is not None:
             return Refused(reason)
-        plan = desk.try_pick(box)
+        plan = desk.picking.try_pick(box)
         return Refused(plan) if isinstance(plan, str) else plan
 
     decision = select(graph, work.wishes.open(work.now), rule_of(work), grasp_for)
-    return Choice(decision, desk.planned - before)
+    return Choice(decision, desk.planner.planned - before)
 
 
 def rule_of(work: Workplace) -> ScoreRule:

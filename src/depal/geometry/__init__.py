@@ -17,9 +17,11 @@ from depal.geometry.prism import (
     prisms_of,
     slice_at,
 )
+from depal.geometry.sight_lines import Blockers
 
 __all__ = [
     "PRISM_WIDTH",
+    "Blockers",
     "Matrix3",
     "OrientedBox",
     "Pose",

@@ -12,12 +12,11 @@ import numpy.typing as npt
 
 from depal.domain import CameraMount, Detection, Perceived, Recognition
 from depal.executive.clock import Clock
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import Blockers, OrientedBox, Pose
 from depal.ports import View
 from depal.simulation.model import pallet_parts
 from depal.simulation.people import name_of
 from depal.simulation.referee import PALLET, Referee
-from depal.simulation.visibility import count_visible
 from depal.simulation.world import World
 
 Floats = npt.NDArray[np.float64]
@@ -100,13 +99,13 @@ class TruthSight:
         boxes = [c.index for c in self._world.cases if self._referee.where(c.index) == PALLET]
         if not boxes:
             return frozenset()
-        solids = _Solids(self._world)
+        solids = _solids(self._world)
         cameras = self._world.layout.cameras
         return frozenset(
             box for box in boxes if any(self._share(box, camera, solids) for camera in cameras)
         )
 
-    def _share(self, box: int, camera: CameraMount, solids: "_Solids") -> bool:
+    def _share(self, box: int, camera: CameraMount, solids: Blockers) -> bool:
         """Whether enough of a box's front or top is visible from a camera."""
         pose = self._world.box(box)
         half = np.array(self._world.cases[box].shape.size) / 2
@@ -115,16 +114,7 @@ class TruthSight:
             points = _face_points(pose, half, normal, axis)
             if float((eye - points[0]) @ normal) < STEEP:
                 continue
-            seen = np.zeros(len(points), dtype=np.bool_)
-            count_visible(
-                points,
-                eye,
-                solids.centres,
-                solids.rotations,
-                solids.halves,
-                solids.capsules,
-                seen,
-            )
+            seen = ~solids.between(np.broadcast_to(eye, points.shape), points)
             seen &= _in_picture(points, camera)
             if seen.mean() >= self._settings.share:
                 return True
@@ -140,26 +130,19 @@ class TruthSight:
         return np.asarray(kept * scale)
 
 
-class _Solids:
-    """Everything that can stand in the way, as arrays."""
-
-    def __init__(self, world: World) -> None:
-        layout, flange = world.layout, world.flange()
-        parts = layout.tool.folded_shapes if world.suction.folded else layout.tool.shapes
-        still = [*pallet_parts(layout.pallet), *(part.seen_from(flange) for part in parts)]
-        still += [
-            panel.seen_from(storage.cell_from_storage)
-            for storage in layout.storages
-            if world.bays[storage.id] is not None
-            for panel in storage.panels
-        ]
-        boxes = [OrientedBox(world.box(case.index), case.shape.size) for case in world.cases]
-        everything = [*boxes, *still]
-        self.centres = np.array([solid.centre for solid in everything])
-        self.rotations = np.array([solid.pose.rotation for solid in everything], dtype=float)
-        self.rotations = self.rotations.reshape(-1, 9)
-        self.halves = np.array([solid.size for solid in everything]) / 2
-        self.capsules = _arm(world)
+def _solids(world: World) -> Blockers:
+    """Everything that can stand in the way."""
+    layout, flange = world.layout, world.flange()
+    parts = layout.tool.folded_shapes if world.suction.folded else layout.tool.shapes
+    boxes = [OrientedBox(world.box(case.index), case.shape.size) for case in world.cases]
+    boxes += [*pallet_parts(layout.pallet), *(part.seen_from(flange) for part in parts)]
+    boxes += [
+        panel.seen_from(storage.cell_from_storage)
+        for storage in layout.storages
+        if world.bays[storage.id] is not None
+        for panel in storage.panels
+    ]
+    return Blockers.of(boxes, _arm(world))
 
 
 def _arm(world: World) -> Floats:

@@ -18,6 +18,7 @@ from depal.app.run.record import RESULT, Keeper
 from depal.app.run.summary import Left, Outcome, disagreements, run_report
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
 from depal.cell.tasks import read_shipped_tasks
@@ -170,7 +171,8 @@ async def _run(
     times = Timekeeper(clock)
     ports = timed(_ports(cell, store, clock), times)
     work = Workplace(job.layout, job.delivery, ports, job.settings, Questions(ports.person, clock))
-    desk = Desk(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
+    planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
+    desk = Desk(work, planner)
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
@@ -223,7 +225,7 @@ def _outcome(
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,
         shares=shares,
-        plan_seconds=tuple(desk.spent),
+        plan_seconds=tuple(desk.planner.spent),
         policy=job.settings.policy.value,
         w=job.settings.w,
         seed=job.seed,

@@ -8,8 +8,9 @@ import numpy as np
 
 from depal.cell.checking.mover import Mover
 from depal.cell.checking.sizes import BoxSize
+from depal.cell.planning.showing import before_lens
 from depal.domain import Approach, ReaderMount
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import OrientedBox, Vector3
 
 _SIDES = {
     "far": (1.0, 0.0, 0.0),
@@ -70,15 +71,6 @@ def _shown(mover: Mover, reader: ReaderMount, load: BoxSize, approach: Approach)
     ]
 
 
-def _before(reader: ReaderMount, load: BoxSize, normal: tuple[float, float, float]) -> OrientedBox:
+def _before(reader: ReaderMount, load: BoxSize, normal: Vector3) -> OrientedBox:
     """The box with the middle of one side where labels are to be shown, facing the lens."""
-    pose = reader.cell_from_reader
-    focus = np.array(pose.apply((0.0, 0.0, reader.distance)))
-    sight = np.array(pose.rotation)[:2, 2]
-    # The side's normal is turned against the line of sight, about the vertical.
-    yaw = float(np.arctan2(-sight[1], -sight[0]) - np.arctan2(normal[1], normal[0]))
-    turn = Pose.from_yaw((0.0, 0.0, 0.0), yaw)
-    half = abs(normal[0]) * load.size[0] / 2 + abs(normal[1]) * load.size[1] / 2
-    away = np.array(turn.apply((normal[0] * half, normal[1] * half, 0.0)))
-    centre = focus - away
-    return OrientedBox(Pose.from_arrays(centre, np.array(turn.rotation)), load.size)
+    return OrientedBox(before_lens(reader, load.size, np.array(normal)), load.size)

@@ -10,7 +10,7 @@ import numpy.typing as npt
 from depal.cell.checking.posture import Array, Posture, posture
 from depal.cell.checking.standing import LOAD_HEIGHT
 from depal.domain import CameraMount, CellLayout, PalletStand
-from depal.geometry import OrientedBox
+from depal.geometry import Blockers
 
 Flags = npt.NDArray[np.bool_]
 
@@ -112,64 +112,14 @@ def _hidden(
     # A sight line ends just before the front.
     end = lens + way * 0.999
     hidden = {"the picture's edge": ~in_picture(camera, points)}
-    capsules = [
-        capsule_hits(start, end, *capsule)
-        for capsule in zip(arm.starts, arm.ends, arm.radii, strict=True)
-    ]
-    tool = [box_hits(start, end, box) for box in arm.tool]
-    hidden["the parked arm"] = np.logical_or.reduce([*capsules, *tool])
+    capsules = np.column_stack((arm.starts, arm.ends, arm.radii))
+    hidden["the parked arm"] = Blockers.of(arm.tool, capsules).between(start, end)
     for storage in layout.storages:
         panels = [panel.seen_from(storage.cell_from_storage) for panel in storage.panels]
-        hidden[storage.id] = np.logical_or.reduce([box_hits(start, end, box) for box in panels])
+        hidden[storage.id] = Blockers.of(panels).between(start, end)
     for number, box in enumerate(layout.fixtures, start=1):
-        hidden[f"fixture {number}"] = box_hits(start, end, box)
+        hidden[f"fixture {number}"] = Blockers.of([box]).between(start, end)
     return hidden
-
-
-def box_hits(start: Array, end: Array, box: OrientedBox) -> Flags:
-    """Which straight lines go through a box.
-
-    Args:
-        start: (n, 3) [m].
-        end: (n, 3) [m].
-        box: in the same frame.
-    """
-    turn, half = np.array(box.pose.rotation), np.array(box.size) / 2
-    origin = (start - np.array(box.centre)) @ turn
-    step = (end - start) @ turn
-    step = np.where(np.abs(step) < 1e-12, 1e-12, step)  # noqa: PLR2004 - no division by zero
-    sides = np.stack(((-half - origin) / step, (half - origin) / step))
-    enter, leave = sides.min(axis=0).max(axis=1), sides.max(axis=0).min(axis=1)
-    hits: Flags = np.maximum(enter, 0.0) < np.minimum(leave, 1.0)
-    return hits
-
-
-def capsule_hits(start: Array, end: Array, one: Array, other: Array, radius: float) -> Flags:
-    """Which straight lines come nearer to a segment than a radius.
-
-    Args:
-        start: (n, 3) [m].
-        end: (n, 3) [m].
-        one: an end of the segment, (3,) [m].
-        other: its other end, (3,) [m].
-        radius: [m].
-    """
-    # Closest points of two segments (Ericson, Real-Time Collision Detection, 5.1.9).
-    d1, d2, r = end - start, other - one, start - one
-    a, e = (d1 * d1).sum(axis=1), float(d2 @ d2)
-    c, f = (d1 * r).sum(axis=1), r @ d2
-    if e == 0:
-        s, t = np.clip(-c / a, 0.0, 1.0), np.zeros(len(start))
-    else:
-        b = d1 @ d2
-        flat = np.maximum(a * e - b * b, 1e-12)
-        s = np.clip((b * f - c * e) / flat, 0.0, 1.0)
-        t = (b * s + f) / e
-        s = np.where(t < 0, np.clip(-c / a, 0, 1), np.where(t > 1, np.clip((b - c) / a, 0, 1), s))
-        t = np.clip(t, 0.0, 1.0)
-    gap = start + d1 * s[:, None] - (one + d2 * t[:, None])
-    hits: Flags = (gap * gap).sum(axis=1) < radius * radius
-    return hits
 
 
 def _sight(

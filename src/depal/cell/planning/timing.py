@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from depal.domain import CellLayout
+from depal.domain import CellLayout, Joints
 from depal.motion.collision import Checker
 from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding
@@ -13,8 +13,11 @@ from depal.motion.moves import Kind, Part
 from depal.motion.timing import Leg, time_path
 from depal.ports import Trajectory
 
-GENTLE = 0.5
+GENTLE = 0.7
 """Share of the straight speed at which a box is pulled out of the pile."""
+
+HERE = 0.01
+"""A plan is good for an arm that stands this near to where it begins [rad]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,3 +78,8 @@ def rebased(path: Array, start: Array) -> Array:
     share = np.linspace(1.0, 0.0, len(path))[:, None]
     out: Array = path + share * (start - path[0])
     return out
+
+
+def stands_at(here: Joints | Array, there: Joints | Array) -> bool:
+    """Whether an arm stands where a plan begins."""
+    return bool(np.abs(np.array(here) - np.array(there)).max() < HERE)

@@ -30,12 +30,12 @@ class Checking:
     async def show(self, context: Context) -> Report:
         """Carries the held box to the reader."""
         box = BoxId(context.args["Box"])
-        plan = await self._desk.show(box)
+        plan = await self._desk.presenting.show(box)
         if isinstance(plan, str):
             return await self._ask(box, plan)
         await context.checkpoint()
         follow = self._work.ports.arm.follow
-        self._desk.clear_view_later(box, plan.first)
+        self._desk.viewing.clears(box, plan.first)
         stopped = await follow(plan.first, self._guards.holding(lambda: context.stop_reason))
         if stopped is not None:
             return report_loss(self._work, box, stopped)

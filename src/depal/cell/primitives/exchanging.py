@@ -49,6 +49,6 @@ class Exchanging:
             del self._asked[trolley]
         if self._work.ports.bays.trolley(trolley) is None:
             return Report(outcome=Outcome.FAILED, reason=f"no trolley is locked in {trolley}")
-        self._desk.exchanged(trolley)
+        self._desk.promises.exchanged(trolley)
         self._work.exchange_of(trolley).end()
         return Report(((f"{trolley}.present", True), (f"{trolley}.full", False)))

@@ -27,25 +27,25 @@ class Leaving:
         """Carries the held box into its place, just above where it will stand."""
         box = BoxId(context.args["Box"])
         place = PlaceId(str(context.args.get("To") or context.facts[f"{box}.target"]))
-        plan = await self._desk.carry(box, place)
+        plan = await self._desk.carrying.carry(box, place)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
         if "To" not in context.args and plan.place != place:
             place = plan.place  # from where the arm is another of its places can be reached
             self._work.tell([(f"{box}.target", place)], "cell")
         await context.checkpoint()
-        self._desk.clear_view_later(box, plan.motion)
+        self._desk.viewing.clears(box, plan.motion)
         guard = self._guards.holding(lambda: context.stop_reason)
         stopped = await self._work.ports.arm.follow(plan.motion, guard)
         if stopped is not None:
-            self._desk.forget_carry(box)
+            self._desk.promises.forget_carry(box)
             return report_loss(self._work, box, stopped)
         return Report(((ARM_AT, place),))
 
     async def release(self, context: Context) -> Report:
         """Sets the box down until it stands, vents, draws back; one change of facts."""
         box = BoxId(context.args["Box"])
-        plan = self._desk.carry_in_hand(box)
+        plan = self._desk.promises.carry_in_hand(box)
         stopped = await self._set_down(plan)
         if stopped is not None:
             return report_loss(self._work, box, stopped)
@@ -56,7 +56,7 @@ class Leaving:
     async def put(self, context: Context) -> Report:
         """The same for a box that is set aside or moved."""
         box, place = BoxId(context.args["Box"]), PlaceId(context.args["To"])
-        plan = self._desk.carry_in_hand(box)
+        plan = self._desk.promises.carry_in_hand(box)
         stopped = await self._set_down(plan)
         if stopped is not None:
             return report_loss(self._work, box, stopped)
@@ -71,8 +71,8 @@ class Leaving:
         if await ports.arm.follow(plan.descent, lost) == LOST:
             return LOST
         await ports.gripper.release()
-        self._desk.confirm(plan)
-        retreat = self._desk.retreat(plan)
+        self._desk.promises.confirm(plan)
+        retreat = self._desk.carrying.retreat(plan)
         if retreat is not None:
             await ports.arm.follow(retreat)
         return None

@@ -22,7 +22,7 @@ class Moving:
     async def reach_into(self, context: Context) -> Report:
         """Moves the gripper into a place, to the face of a box that stands there."""
         box, place = BoxId(context.args["Box"]), PlaceId(context.args["From"])
-        plan = await self._desk.pick_from(box, place)
+        plan = await self._desk.picking.pick_from(box, place)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
         await context.checkpoint()

@@ -28,7 +28,7 @@ class Querying:
             return Report(outcome=Outcome.FAILED, reason=reason)
         reason = "no place was tried"
         for _ in range(1 + len(work.layout.storages)):
-            found = await self._desk.find_place(box, places)
+            found = await self._desk.carrying.find_place(box, places)
             if not isinstance(found, str):
                 return Report(((f"{box}.target", found.place),))
             reason = found
@@ -42,7 +42,7 @@ class Querying:
         """The first trolley of the list that holds something."""
         for place in places:
             storage = self._work.layout.storage(place)
-            filled = any(place_map.boxes for place_map in self._desk.books.of(storage.id))
+            filled = any(place_map.boxes for place_map in self._desk.promises.books.of(storage.id))
             if storage.kind is StorageKind.TROLLEY and filled:
                 return storage.id
         return None

@@ -40,13 +40,13 @@ class Seeing:
         """Algorithm 1; what cannot be grasped at all is left to a person."""
         work, pallet = self._work, context.args["Pallet"]
         choice = choose(work, self._desk)
-        await self._desk.charge(choice.plans)
+        await self._desk.planner.charge(choice.plans)
         decision = choice.decision
         self._notes.chose(work.now, decision)
         if decision.target is None or decision.grasp is None:
             return await self._stuck(choice, pallet)
         box = decision.target.id
-        self._desk.keep_pick(decision.grasp)
+        self._desk.promises.keep_pick(decision.grasp)
         store = Call("store", (box,), priority_of(decision, box))
         return Report(((f"{pallet}.next", box),), allocate=(store,))
 

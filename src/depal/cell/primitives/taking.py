@@ -24,7 +24,7 @@ class Taking:
     async def reach(self, context: Context) -> Report:
         """Moves the gripper to the face of the box."""
         box = BoxId(context.args["Box"])
-        plan = await self._desk.pick(box)
+        plan = await self._desk.picking.pick(box)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
         ports = self._work.ports
@@ -39,7 +39,7 @@ class Taking:
     async def grasp(self, context: Context) -> Report:
         """Suction on, then a short lift; retreats where the vacuum does not come."""
         box = BoxId(context.args["Box"])
-        plan = self._desk.pick_in_hand(box)
+        plan = self._desk.promises.pick_in_hand(box)
         ports = self._work.ports
         if not await ports.gripper.suck(plan.grasp.cups):
             return await self._let_go(plan, "the vacuum did not come")
@@ -57,10 +57,10 @@ class Taking:
         """Vents, draws back, and lets the box be approached anew."""
         ports = self._work.ports
         await ports.gripper.release()
-        retreat = self._desk.draw_back(plan)
+        retreat = self._desk.picking.draw_back(plan)
         if retreat is not None:
             await ports.arm.follow(retreat)
-        self._desk.forget_pick(plan.box.id)
+        self._desk.promises.forget_pick(plan.box.id)
         return Report(((ARM_AT, None),), Outcome.FAILED, reason)
 
     async def probe_arm(self, context: Context) -> Report:

@@ -26,7 +26,7 @@ REVERSAL = -0.9
 SMOOTH = 1.0 - 1e-6
 """Above this cosine there is no corner [-]."""
 
-PITCH = 0.06
+PITCH = 0.012
 """A curve's points are thinned to about this distance, in time at full speed [s]."""
 
 CHECKS = 0.01

@@ -1,0 +1,161 @@
+"""How a held box gets into a place, and which place that is."""
+
+from collections.abc import Sequence
+
+from depal.cell.planning.loads import load_of
+from depal.cell.planning.picking import Picking
+from depal.cell.planning.placing import as_pushed_in, turn_into
+from depal.cell.planning.planner import Planner
+from depal.cell.planning.plans import CarryPlan, Load
+from depal.cell.planning.promises import Promises
+from depal.cell.planning.surroundings import target_of
+from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.workplace import Workplace
+from depal.domain import BoxId, PlaceId, StorageKind
+from depal.logistics.placing import MARGINS, Spot, find_spots
+from depal.motion.moves import Berth, Kind, NoMotion, Part
+from depal.ports import Trajectory
+
+ASIDE = PlaceId("aside")
+"""What task files call the storage that boxes are set aside into."""
+
+SPOTS = 4
+"""So many spots of one place are tried."""
+
+
+class Carrying:
+    """Finds places, promises them, and plans the motions there."""
+
+    def __init__(
+        self, work: Workplace, planner: Planner, promises: Promises, picking: Picking
+    ) -> None:
+        """No box has a list of places yet.
+
+        Args:
+            work: what the cell believes.
+            planner: of the motions.
+            promises: the books, and the motions that were found.
+            picking: asked for another way to hold a box that fits nowhere.
+        """
+        self._work = work
+        self._planner = planner
+        self._promises = promises
+        self._picking = picking
+        self._lists: dict[BoxId, tuple[PlaceId, ...]] = {}
+
+    async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:
+        """The first place in a list into which a box can be put, with the motion there."""
+        load = self._load_of(box)
+        if load is None:
+            return f"box {box} is neither held nor about to be"
+        self._lists.setdefault(box, tuple(places))
+        before = self._planner.planned
+        with self._promises.searching(box):
+            plan = self._first_place(load, places)
+            if isinstance(plan, str) and self._promises.may_change(box):
+                plan = self._by_another_grasp(box, places) or plan
+            if not isinstance(plan, str):
+                self._promise(plan)
+            await self._planner.charge(self._planner.planned - before)
+        return plan
+
+    def _load_of(self, box: BoxId) -> Load | None:
+        return load_of(box, self._work, self._promises.pick_of(box))
+
+    def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
+        """Held the other way it may fit."""
+        kept = self._promises.pick_in_hand(box)
+        seen = self._work.pile.get(box)
+        if seen is None:
+            return None
+        other = self._picking.try_pick(seen, frozenset({kept.grasp.approach}))
+        if isinstance(other, str):
+            return None
+        self._promises.keep_pick(other)
+        load = self._load_of(box)
+        plan = self._first_place(load, places) if load is not None else ""
+        if isinstance(plan, str):
+            self._promises.keep_pick(kept)
+            return None
+        return plan
+
+    def _first_place(self, load: Load, places: Sequence[PlaceId]) -> CarryPlan | str:
+        reasons: list[str] = []
+        for place in places:
+            bay = place.split("/", maxsplit=1)[0]
+            if self._work.ports.bays.trolley(bay) is None and not self._is_fixed(place):
+                reasons.append(f"no trolley in {bay}")
+                continue
+            plan = self._into(load, place)
+            if not isinstance(plan, str):
+                return plan
+            reasons.append(f"{place}: {plan}")
+        return "; ".join(reasons[:3]) or "the list of places is empty"
+
+    def _is_fixed(self, place: PlaceId) -> bool:
+        return self._work.layout.storage(place).kind is StorageKind.SHELF
+
+    def _into(self, load: Load, place: PlaceId) -> CarryPlan | str:
+        """Into one place, at the first of its spots that the arm reaches."""
+        layout, planner = self._work.layout, self._planner
+        turn = turn_into(load)
+        held = as_pushed_in(load, turn, layout.tool)
+        cell_from_place = layout.places[place].cell_from_place
+        scene = self._promises.scene(self._work.pile, without=load.box)
+        reason = "no room"
+
+        def berth_at(spot: Spot) -> Berth:
+            target = target_of(cell_from_place, spot, turn)
+            return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
+
+        spots = find_spots(
+            self._promises.books.at(place),
+            held,
+            limit=SPOTS,
+            reachable=lambda spot: not planner.mover.why_no_put(load.start, berth_at(spot), scene),
+        )
+        for spot in spots:
+            berth = berth_at(spot)
+            put = planner.put(load, berth, scene)
+            if isinstance(put, NoMotion):
+                reason = str(put)
+                continue
+            holding, clear = planner.holding(load), planner.checker(load, scene)
+            motion = planner.timing.along(put.carry, holding, clear)
+            descent = planner.timing.slowly(put.descent, holding)
+            if motion is None or descent is None:
+                reason = "the suction would not hold it"
+                continue
+            return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
+        return reason
+
+    def _promise(self, plan: CarryPlan) -> None:
+        """Nobody else gets the place, and the motion after the next begins there."""
+        self._promises.keep_carry(plan)
+        held = self._work.held
+        if held is None or held.box == plan.load.box:
+            self._promises.next_start = plan.end
+
+    async def carry(self, box: BoxId, place: PlaceId) -> CarryPlan | str:
+        """The motion of the held box into a place, from where it is."""
+        promises = self._promises
+        kept, here = promises.carry_of(box), self._planner.here
+        if kept is not None and kept.place == place and stands_at(here, kept.motion.start):
+            promises.next_start = kept.end
+            return kept
+        promises.release(box)
+        there = self._places_named(place)
+        elsewhere = () if place == ASIDE else self._lists.get(box, ())
+        return await self.find_place(box, (*there, *(p for p in elsewhere if p not in there)))
+
+    def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
+        """The place itself, or all of the storage that boxes are set aside into."""
+        if place != ASIDE:
+            return (place,)
+        storage = self._work.layout.storage(self._work.layout.aside)
+        return tuple(each.id for each in storage.places)
+
+    def retreat(self, plan: CarryPlan) -> Trajectory | None:
+        """Straight out of the place from where the arm has come to rest."""
+        part = Part(Kind.STRAIGHT, rebased(plan.retreat, self._planner.here))
+        return self._planner.timing.along([part])

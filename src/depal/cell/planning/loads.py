@@ -1,0 +1,64 @@
+"""A box as the next motion will find it, and what boxes weigh."""
+
+import math
+
+import numpy as np
+
+from depal.cell.planning.plans import Load, PickPlan
+from depal.cell.planning.timing import stands_at
+from depal.cell.workplace import Held, Workplace
+from depal.domain import BoxId, Delivery, Perceived, Recognition
+from depal.geometry import Vector3
+
+HEAVIEST = 600.0
+"""An unknown box is not expected to be denser than this [kg/m^3]."""
+
+SAME_SIZE = 0.02
+"""A detected box may be a product whose edges differ by less than this [m]."""
+
+
+def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
+    """A box that is in the hand now, or will be after its pick; None for any other.
+
+    Args:
+        box: which.
+        work: what is held, and where the arm stands.
+        plan: its pick, where there is one.
+    """
+    held = work.held
+    if held is not None and held.box == box:
+        here = np.array(work.ports.arm.joints())
+        mass = _felt(held, work)
+        if plan is not None and stands_at(here, plan.pick.lift.path[-1]):
+            out = plan.pick.out
+            return Load(box, held.grasp, held.size, mass, (out,), out.path[-1])
+        return Load(box, held.grasp, held.size, mass, (), here)
+    if plan is None:
+        return None
+    out = plan.pick.out
+    return Load(box, plan.grasp, plan.box.shape.size, plan.mass, (out,), out.path[-1])
+
+
+def _felt(held: Held, work: Workplace) -> float:
+    """What a held box weighs: what its product should, or what the arm feels [kg]."""
+    product = work.product_of(held.box)
+    return max(held.mass, product.mass if product else 0.0)
+
+
+def expected_mass(box: Perceived, delivery: Delivery) -> float:
+    """What a box should weigh: its product, or the heaviest of the note of its size [kg]."""
+    products = delivery.products
+    if isinstance(box, Recognition) and box.gtin in products:
+        return products[box.gtin].mass
+    size = sorted(box.shape.size)
+    fitting = [
+        product.mass
+        for product in products.values()
+        if max(abs(a - b) for a, b in zip(sorted(product.size), size, strict=True)) < SAME_SIZE
+    ]
+    return max(fitting, default=heaviest(box.shape.size))
+
+
+def heaviest(size: Vector3) -> float:
+    """What a box of a size weighs at the most [kg]."""
+    return HEAVIEST * math.prod(size)

@@ -1,0 +1,126 @@
+"""How boxes are taken: off the pallet, or out of a place."""
+
+import asyncio
+import math
+
+import numpy as np
+
+from depal.cell.planning.facing import pallet_front
+from depal.cell.planning.loads import expected_mass, heaviest
+from depal.cell.planning.planner import Planner
+from depal.cell.planning.plans import PickPlan
+from depal.cell.planning.promises import Promises
+from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.workplace import Workplace
+from depal.domain import Approach, BoxId, Grasp, Perceived, PlaceId, Recognition
+from depal.motion.grasping import Holding, grasps
+from depal.motion.moves import OPEN, Kind, NoMotion, Part, Pick
+from depal.ports import Trajectory
+
+MOVED = 0.008
+"""A plan is good for a box that is seen this far from where it was planned for [m]."""
+
+
+class Picking:
+    """Plans picks; a kept one is planned anew where it does not fit any more."""
+
+    def __init__(self, work: Workplace, planner: Planner, promises: Promises) -> None:
+        """Picks from the pile and the places, as the cell believes them."""
+        self._work = work
+        self._planner = planner
+        self._promises = promises
+
+    def try_pick(
+        self,
+        box: Perceived,
+        without: frozenset[Approach] = frozenset(),
+        first: Grasp | None = None,
+    ) -> PickPlan | str:
+        """A pick of a box from where the arm will be next, or why there is none.
+
+        Args:
+            box: which.
+            without: ways to hold it that are of no use.
+            first: the way to hold it that is tried before all others.
+        """
+        work = self._work
+        start = np.array(self._promises.next_start or work.ports.arm.joints())
+        mass = expected_mass(box, work.delivery)
+        tool, front = work.layout.tool, pallet_front(work.layout.pallet)
+        ways = [g for g in grasps(box.shape, mass, tool, front) if g.approach not in without]
+        if first is not None:
+            ways = [first, *(grasp for grasp in ways if grasp != first)]
+        scene = self._promises.scene(work.pile)
+        found = self._planner.pick(start, box.shape, ways, scene, str(box.id))
+        if isinstance(found, NoMotion):
+            return str(found)
+        return self._timed(box, mass, found)
+
+    def _timed(self, box: Perceived, mass: float, pick: Pick) -> PickPlan | str:
+        planner = self._planner
+        scene = self._promises.scene(self._work.pile)
+        empty = planner.mover.checker(scene, OPEN, folded=pick.grasp.folded)
+        holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
+        approach = planner.timing.along(pick.approach, checker=empty)
+        lift = planner.timing.slowly(pick.lift, holding)
+        if approach is None or lift is None:
+            return "the suction would not hold it"
+        return PickPlan(box, mass, pick, approach, lift)
+
+    async def pick(self, box: BoxId) -> PickPlan | str:
+        """The pick of a box from where the arm stands; planned anew where the kept one is off.
+
+        Where a place is being searched for the box, this waits: the way to hold it may change.
+        """
+        await asyncio.sleep(0)
+        promises, planner = self._promises, self._planner
+        await promises.searched(box)
+        promises.reach(box)
+        seen = self._work.pile.get(box)
+        if seen is None:
+            return f"box {box} is not seen on the pallet"
+        kept = promises.pick_of(box)
+        if kept is not None and self._is_good(kept, seen):
+            return kept
+        before = planner.planned
+        promises.next_start = None
+        plan = self.try_pick(seen, first=None if kept is None else kept.grasp)
+        await planner.charge(planner.planned - before)
+        if not isinstance(plan, str):
+            if kept is not None and plan.grasp != kept.grasp:
+                promises.release(box)
+            promises.keep_pick(plan)
+        return plan
+
+    def _is_good(self, plan: PickPlan, seen: Perceived) -> bool:
+        moved = math.dist(plan.box.shape.centre, seen.shape.centre)
+        return moved < MOVED and stands_at(self._planner.here, plan.approach.start)
+
+    async def pick_from(self, box: BoxId, place: PlaceId) -> PickPlan | str:
+        """The pick of a box that stands in a place."""
+        work, planner = self._work, self._planner
+        solid = self._promises.standing(box, place)
+        if solid is None:
+            return f"box {box} does not stand in {place}"
+        inward = np.array(work.layout.places[place].cell_from_place.rotation)[:, 0]
+        front = (float(-inward[0]), float(-inward[1]), 0.0)
+        product = work.product_of(box)
+        mass = product.mass if product else heaviest(solid.size)
+        scene = self._promises.scene(work.pile)
+        ways = grasps(solid, mass, work.layout.tool, front)
+        found = planner.pick(planner.here, solid, ways, scene, str(box))
+        await planner.charge(1)
+        if isinstance(found, NoMotion):
+            return str(found)
+        if product is None:
+            return f"nobody knows the product of box {box}"
+        plan = self._timed(Recognition(box, solid, product.gtin), mass, found)
+        if not isinstance(plan, str):
+            self._promises.keep_pick(plan)
+        return plan
+
+    def draw_back(self, plan: PickPlan) -> Trajectory | None:
+        """Back along the straight approach, with an empty hand."""
+        back = plan.pick.approach[-1].path[::-1]
+        part = Part(Kind.STRAIGHT, rebased(back.copy(), self._planner.here))
+        return self._planner.timing.along([part])
