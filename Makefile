@@ -1,4 +1,5 @@
-# make run      install, then run the main job
+# make run      install, then run the main job: a real delivery, from pallet to trolleys
+# make studies  the paper's case studies on geometry alone
 # make test     install, then check and test everything; samples every figure
 # make check    formatting, lint, types and layers only
 # make figures  measure every figure (half an hour; resumable) and print the table of the README
@@ -9,9 +10,15 @@ OUT ?= out
 COVERAGE := --cov=depal.domain --cov=depal.geometry --cov=depal.selection --cov=depal.errors \
 	--cov-branch --cov-report=term-missing:skip-covered --cov-fail-under=100
 
-.PHONY: run test check figures clean
+.PHONY: run studies test check figures clean
 
 run: .venv/.installed
+	@mkdir -p $(OUT)
+	@rm -rf $(OUT)/run
+	$(BIN)/depal run --record $(OUT)/run --json $(OUT)/run.json
+	@echo "the run as it went: $(OUT)/run/run.gif; decision by decision: $(BIN)/depal replay $(OUT)/run"
+
+studies: .venv/.installed
 	@mkdir -p $(OUT)
 	$(BIN)/depal study table1 --json $(OUT)/table1.json --plot $(OUT)/table1.png
 	$(BIN)/depal study fig8 --json $(OUT)/fig8.json --plot $(OUT)/fig8.png
