@@ -1,6 +1,7 @@
 """How a held box gets into a place, and which place that is."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -65,29 +66,39 @@ class Carrying:
         return load_of(box, self._work, self._promises.pick_of(box))
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
-        """Held the other way it may fit."""
-        kept = self._promises.pick_in_hand(box)
+        """Held another way it may fit: the first way that has room somewhere."""
+        kept, load = self._promises.pick_in_hand(box), self._load_of(box)
         seen = self._work.pile.get(box)
-        if seen is None:
+        if seen is None or load is None:
             return None
-        other = self._picking.try_pick(seen, frozenset({kept.grasp.approach}))
-        if isinstance(other, str):
-            return None
-        self._promises.keep_pick(other)
-        load = self._load_of(box)
-        plan = self._first_place(load, places) if load is not None else ""
-        if isinstance(plan, str):
-            self._promises.keep_pick(kept)
-            return None
-        return plan
+        for grasp in self._picking.ways(seen):
+            fits = grasp != kept.grasp and any(
+                self._spots(replace(load, grasp=grasp), place, 1) for place in self._open(places)
+            )
+            other = self._picking.try_pick(seen, grasp, only=True) if fits else ""
+            if isinstance(other, str):
+                continue
+            self._promises.keep_pick(other)
+            held = self._load_of(box)
+            plan = self._first_place(held, places) if held is not None else ""
+            if not isinstance(plan, str):
+                return plan
+        self._promises.keep_pick(kept)
+        return None
+
+    def _open(self, places: Sequence[PlaceId]) -> list[PlaceId]:
+        """The places that are there: on a shelf, or on a trolley in its bay."""
+        trolley = self._work.ports.bays.trolley
+        return [
+            place
+            for place in places
+            if self._is_fixed(place) or trolley(place.split("/", maxsplit=1)[0]) is not None
+        ]
 
     def _first_place(self, load: Load, places: Sequence[PlaceId]) -> CarryPlan | str:
-        reasons: list[str] = []
-        for place in places:
-            bay = place.split("/", maxsplit=1)[0]
-            if self._work.ports.bays.trolley(bay) is None and not self._is_fixed(place):
-                reasons.append(f"no trolley in {bay}")
-                continue
+        there = self._open(places)
+        reasons = [f"{place}: no trolley is in its bay" for place in places if place not in there]
+        for place in there:
             plan = self._into(load, place)
             if not isinstance(plan, str):
                 return plan
@@ -99,25 +110,11 @@ class Carrying:
 
     def _into(self, load: Load, place: PlaceId) -> CarryPlan | str:
         """Into one place, at the first of its spots that the arm reaches."""
-        layout, planner = self._work.layout, self._planner
-        turn = turn_into(load)
-        held = as_pushed_in(load, turn, layout.tool)
-        cell_from_place = layout.places[place].cell_from_place
+        planner = self._planner
         scene = self._promises.scene(self._work.pile, without=load.box)
         reason = "no room"
-
-        def berth_at(spot: Spot) -> Berth:
-            target = target_of(cell_from_place, spot, turn)
-            return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
-
-        spots = find_spots(
-            self._promises.books.at(place),
-            held,
-            limit=SPOTS,
-            reachable=lambda spot: not planner.mover.why_no_put(load.start, berth_at(spot), scene),
-        )
-        for spot in spots:
-            berth = berth_at(spot)
+        for spot in self._spots(load, place, SPOTS):
+            berth = self._berth(load, place, spot)
             put = planner.put(load, berth, scene)
             if isinstance(put, NoMotion):
                 reason = str(put)
@@ -130,6 +127,24 @@ class Carrying:
                 continue
             return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
         return reason
+
+    def _spots(self, load: Load, place: PlaceId, limit: int) -> tuple[Spot, ...]:
+        """Spots in a place that the arm reaches with the box as it is held, best first."""
+        scene = self._promises.scene(self._work.pile, without=load.box)
+        mover = self._planner.mover
+        return find_spots(
+            self._promises.books.at(place),
+            as_pushed_in(load, turn_into(load), self._work.layout.tool),
+            limit=limit,
+            reachable=lambda spot: (
+                not mover.why_no_put(load.start, self._berth(load, place, spot), scene)
+            ),
+        )
+
+    def _berth(self, load: Load, place: PlaceId, spot: Spot) -> Berth:
+        cell_from_place = self._work.layout.places[place].cell_from_place
+        target = target_of(cell_from_place, spot, turn_into(load))
+        return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
 
     def _promise(self, plan: CarryPlan) -> None:
         """Nobody else gets the place, and the motion after the next begins there."""

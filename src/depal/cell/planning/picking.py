@@ -12,7 +12,7 @@ from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.workplace import Workplace
-from depal.domain import Approach, BoxId, Grasp, Perceived, PlaceId, Recognition
+from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
 from depal.motion.grasping import Holding, grasps
 from depal.motion.moves import OPEN, Kind, NoMotion, Part, Pick
 from depal.ports import Trajectory
@@ -33,28 +33,34 @@ class Picking:
     def try_pick(
         self,
         box: Perceived,
-        without: frozenset[Approach] = frozenset(),
         first: Grasp | None = None,
+        *,
+        only: bool = False,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
 
         Args:
             box: which.
-            without: ways to hold it that are of no use.
             first: the way to hold it that is tried before all others.
+            only: no other way is tried.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
         mass = expected_mass(box, work.delivery)
-        tool, front = work.layout.tool, pallet_front(work.layout.pallet)
-        ways = [g for g in grasps(box.shape, mass, tool, front) if g.approach not in without]
-        if first is not None:
-            ways = [first, *(grasp for grasp in ways if grasp != first)]
+        ways = [first] if first is not None else []
+        if not only:
+            ways += [grasp for grasp in self.ways(box) if grasp != first]
         scene = self._promises.scene(work.pile)
         found = self._planner.pick(start, box.shape, ways, scene, str(box.id))
         if isinstance(found, NoMotion):
             return str(found)
         return self._timed(box, mass, found)
+
+    def ways(self, box: Perceived) -> tuple[Grasp, ...]:
+        """Every way to hold a box on the pallet, best first."""
+        work = self._work
+        front = pallet_front(work.layout.pallet)
+        return grasps(box.shape, expected_mass(box, work.delivery), work.layout.tool, front)
 
     def _timed(self, box: Perceived, mass: float, pick: Pick) -> PickPlan | str:
         planner = self._planner
