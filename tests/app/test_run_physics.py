@@ -77,7 +77,6 @@ def test_a_heavy_case_is_held_with_the_suction_cone_and_lost_without() -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(reason="a box that fell back onto the pile is not seen", raises=AssertionError)
 def test_a_box_that_falls_back_onto_the_pile_is_not_run_into() -> None:
     """It stands there again, and the next look shows it."""
     on_top = ((0.4, 0.0, 0.3), (0.3, 0.2, 0.25), 20.0)

@@ -425,14 +425,12 @@ def test_a_motion_that_the_arm_refuses_once_is_tried_again(motion: int) -> None:
 # What the cell cannot do yet
 
 
-@pytest.mark.xfail(reason="the arm stays in the place where it lost the box", raises=AssertionError)
 def test_after_a_loss_in_front_of_a_place_the_arm_goes_on() -> None:
     """It draws back from where the box has fallen and takes the next one."""
     cell = Cell(2, gripper=FakeGripper({0: 3.3})).works()
     assert cell.fates == {"b1": LOST, "b2": STORED}
 
 
-@pytest.mark.xfail(reason="an exchange does not wait for the arm", raises=AssertionError)
 def test_no_trolley_is_exchanged_while_a_box_is_on_its_way_into_it() -> None:
     """However quick the person is."""
     bays = FakeBays()
@@ -443,7 +441,6 @@ def test_no_trolley_is_exchanged_while_a_box_is_on_its_way_into_it() -> None:
     Cell(2, full=[upper], bays=bays, person=person, places=places).works().assert_whole()
 
 
-@pytest.mark.xfail(reason="a release is not taken up again half-way", raises=AssertionError)
 def test_a_box_stays_stored_when_the_arm_refuses_to_draw_back() -> None:
     """It stands, whatever comes after."""
     cell = Cell(2, refuses=frozenset((4,))).works()
@@ -451,7 +448,6 @@ def test_a_box_stays_stored_when_the_arm_refuses_to_draw_back() -> None:
     assert set(cell.fates.values()) == {STORED}
 
 
-@pytest.mark.xfail(reason="the reason of a fault is the name of its action", raises=AssertionError)
 def test_a_person_is_told_why_a_box_could_not_be_taken() -> None:
     """The last thing that went wrong, in words."""
     cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4), 0.0))).works()

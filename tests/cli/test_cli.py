@@ -11,29 +11,9 @@ import jsonschema
 import pytest
 
 from depal import __version__
-from depal.cli import main
 from depal.logistics import shipped_deliveries
 
 Run = Callable[..., tuple[int, str, str]]
-
-
-def run(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, *words: str
-) -> tuple[int, str, str]:
-    """A command's exit status, output and error output."""
-    monkeypatch.setattr(sys, "argv", ["depal", *words])
-    try:
-        main()
-        status = 0
-    except SystemExit as stop:
-        status = int(stop.code or 0)
-    printed = capsys.readouterr()
-    return status, printed.out, printed.err
-
-
-@pytest.fixture(name="depal")
-def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    return lambda *words: run(capsys, monkeypatch, *map(str, words))
 
 
 def test_table1_writes_the_fields_of_the_contract(depal: Run, tmp_path: Path) -> None:

@@ -15,7 +15,6 @@ from depal.app.reports import bench_report
 from depal.app.run.job import Options, prepared, run_job
 from depal.app.run.summary import Outcome
 from depal.cell.departures import Departure, Fate
-from depal.cli import main
 from depal.domain import Approach, BoxId, PlaceId
 from depal.simulation.referee import Summary
 from depal.studies import paper
@@ -24,21 +23,6 @@ from depal.studies.bench import Figure, Peer
 Run = Callable[..., tuple[int, str, str]]
 
 FIGURE = Figure("checks", 2.0, "1/s", 1.0, "higher", 5)
-
-
-@pytest.fixture(name="depal")
-def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    def run(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["depal", *map(str, words)])
-        status = 0
-        try:
-            main()
-        except SystemExit as stop:
-            status = int(stop.code or 0)
-        printed = capsys.readouterr()
-        return status, printed.out, printed.err
-
-    return run
 
 
 def outcome_of(order: tuple[str, ...], **changes: object) -> Outcome:

@@ -1,32 +1,15 @@
 """`depal cell` as a stranger types it."""
 
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from depal.cell.files import SHIPPED, shipped_text
-from depal.cli import main
 from depal.logistics import shipped_deliveries
 
 Run = Callable[..., tuple[int, str, str]]
-
-
-@pytest.fixture(name="depal")
-def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    def run(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["depal", *map(str, words)])
-        try:
-            main()
-            status = 0
-        except SystemExit as stop:
-            status = int(stop.code or 0)
-        printed = capsys.readouterr()
-        return status, printed.out, printed.err
-
-    return run
 
 
 @pytest.mark.slow

@@ -1,7 +1,6 @@
 """`depal run` as a stranger types it."""
 
 import json
-import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -10,7 +9,6 @@ import pytest
 import depal.app.run.job
 from depal.app.reports.report import Report
 from depal.app.run.job import Options
-from depal.cli import main
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -30,18 +28,9 @@ SMALL = {
 
 
 @pytest.fixture(name="depal")
-def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    def run(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["depal", "run", *map(str, words)])
-        try:
-            main()
-            status = 0
-        except SystemExit as stop:
-            status = int(stop.code or 0)
-        printed = capsys.readouterr()
-        return status, printed.out, printed.err
-
-    return run
+def _depal(depal: Run) -> Run:
+    """The same, of `depal run`."""
+    return lambda *words: depal("run", *words)
 
 
 @pytest.fixture(name="delivery")

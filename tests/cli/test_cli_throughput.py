@@ -1,7 +1,6 @@
 """`depal study throughput`: runs summed up, kept and resumed; what went wrong is said."""
 
 import json
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -15,27 +14,11 @@ from depal import __version__
 from depal.app.run.job import Job
 from depal.app.throughput import Asked, Failure, Row, runs, summary_of, throughput
 from depal.app.throughput.kept import Kept, key_of
-from depal.cli import main
 from depal.errors import SettingError
 from depal.logistics import shipped_deliveries
 
 Run = Callable[..., tuple[int, str, str]]
 Fields = dict[str, Any]
-
-
-@pytest.fixture(name="depal")
-def _depal(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
-    def run(*words: object) -> tuple[int, str, str]:
-        monkeypatch.setattr(sys, "argv", ["depal", *map(str, words)])
-        status = 0
-        try:
-            main()
-        except SystemExit as stop:
-            status = int(stop.code or 0)
-        printed = capsys.readouterr()
-        return status, printed.out, printed.err
-
-    return run
 
 
 def gone(stack: int | None, outcome: str = "stored") -> Fields:

@@ -1,19 +1,17 @@
 """Answers to faults: a box whose action gave up is set aside, left behind, or handed over."""
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from depal.cell.departures import Fate
 from depal.cell.planning.promises import Promises
-from depal.cell.workplace import Workplace
+from depal.cell.workplace import FIRST, Workplace
 from depal.domain import BoxId
+from depal.executive import events as ev
 from depal.executive.engine import Call
 from depal.ports import TAKEN, Question
 
 STORE, ASIDE, EMPTY = "store", "set_aside", "depalletize"
-
-FIRST = 10.0
-"""A priority above that of any request."""
 
 
 class Answers:
@@ -31,6 +29,18 @@ class Answers:
         self._promises = promises
         self._answered = answered
         self._handing: set[asyncio.Task[None]] = set()
+        self._trees: dict[int, int] = {}
+        self._why: dict[int, str] = {}
+
+    def hear(self, events: Sequence[ev.Event]) -> None:
+        """Remembers why an attempt failed: the last reason is what a fault is about."""
+        for event in events:
+            if isinstance(event, ev.Started):
+                self._trees[event.attempt] = event.tree
+            elif isinstance(event, ev.Ended):
+                tree = self._trees.pop(event.attempt, None)
+                if tree is not None and event.reason:
+                    self._why[tree] = event.reason
 
     @property
     def pending(self) -> bool:
@@ -52,16 +62,15 @@ class Answers:
                 continue
             box = BoxId(args[0])
             if state.facts.get(f"{box}.on_floor"):
-                self._recover(number, box)
+                self._let_lie(number, box)
                 continue
             fault = state.facts.get(f"{box}.fault")
             if fault:
-                self._give_up(number, schema, box, str(fault))
+                self._give_up(number, schema, box, self._why.pop(number, str(fault)))
 
-    def _recover(self, number: int, box: BoxId) -> None:
+    def _let_lie(self, number: int, box: BoxId) -> None:
         self._work.runtime.withdraw(number, "it lies on the floor")
         self._promises.forget_carry(box)
-        self._work.runtime.allocate(Call("recover", (box,)))
 
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
         work, runtime = self._work, self._work.runtime

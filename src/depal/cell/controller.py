@@ -52,6 +52,7 @@ class Controller:
     def _heard(self, last: int, events: Sequence[ev.Event]) -> None:
         """Every step of the executive: notes it, and answers faults once the step is over."""
         self._notes.heard(last, events)
+        self._answers.hear(events)
         loop = asyncio.get_running_loop()
         for event in events:
             if isinstance(event, ev.Ended):

@@ -27,6 +27,9 @@ from depal.ports import (
     StoreSystem,
 )
 
+FIRST = 10.0
+"""A priority above that of any request."""
+
 PALLET = "pallet"
 """The name of the pallet's thing in the task files."""
 
@@ -205,9 +208,10 @@ class Workplace:
         self.gone(box).set()
 
     def dropped(self, box: BoxId) -> None:
-        """A box has fallen out of the gripper onto the floor."""
+        """A box has fallen out of the gripper: a person is called before anything else moves."""
         self.ended(box, Fate.LOST, reason="fell out of the gripper")
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
+        self.allocate(Call("recover", (box,), FIRST))
 
     def exchange_of(self, trolley: str) -> Ending:
         """The exchange of a trolley."""

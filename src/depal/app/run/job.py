@@ -15,7 +15,7 @@ from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, policy_of, refuse_what_cannot_work
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
-from depal.app.run.summary import Left, Outcome, disagreements, run_report
+from depal.app.run.summary import UNSEEN, Left, Outcome, disagreements, run_report
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
@@ -24,7 +24,7 @@ from depal.cell.reporting import Journalist
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import CellLayout, Delivery, Request, checked_share
+from depal.domain import BoxId, CellLayout, Delivery, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
@@ -207,16 +207,16 @@ def _outcome(
     job: Job, work: Workplace, desk: Desk, cell: SimulatedCell, keeper: Keeper, times: Timekeeper
 ) -> Outcome:
     boxes = len(job.delivery.boxes)
-    left = tuple(
-        Left(box.id, work.left_behind.get(box.id, "the run ended")) for box in work.pile.boxes
-    )
     sequence = work.departures.sequence
+    left = [Left(box.id, work.left_behind.get(box.id, "the run ended")) for box in work.pile.boxes]
+    missing = boxes - len(left) - len(sequence)
+    left += [Left(BoxId(f"{UNSEEN} {k}"), "never seen") for k in range(1, missing + 1)]
     shares = times.shares(work.now)
     return Outcome(
         delivery=job.delivery.id,
         boxes=boxes,
         departures=sequence,
-        left=left,
+        left=tuple(left),
         wishes=tuple(work.wishes),
         questions=work.questions.all,
         referee=cell.referee.summary(),

@@ -2,6 +2,8 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from depal.cell.planning.loads import load_of
 from depal.cell.planning.picking import Picking
 from depal.cell.planning.placing import as_pushed_in, turn_into
@@ -154,6 +156,18 @@ class Carrying:
             return (place,)
         storage = self._work.layout.storage(self._work.layout.aside)
         return tuple(each.id for each in storage.places)
+
+    def way_out(self, plan: CarryPlan) -> Trajectory | None:
+        """Back along the straight way into a place, where the arm has stopped on it."""
+        motion, here = plan.motion, self._planner.here
+        if not motion.allowances:
+            return None
+        row = int(np.argmin(np.abs(motion.positions - here).max(axis=1)))
+        inside = int(np.searchsorted(motion.times, motion.allowances[-1][0]))
+        if row <= inside:
+            return None
+        back = motion.positions[inside : row + 1][::-1].copy()
+        return self._planner.timing.along([Part(Kind.STRAIGHT, rebased(back, here))])
 
     def retreat(self, plan: CarryPlan) -> Trajectory | None:
         """Straight out of the place from where the arm has come to rest."""

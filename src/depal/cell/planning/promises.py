@@ -40,6 +40,11 @@ class Promises:
         solid = self._around.where(box)
         return solid if self.books.where(box) == place else None
 
+    @property
+    def promised_places(self) -> frozenset[PlaceId]:
+        """The places that boxes are on their way into, or will be."""
+        return frozenset(plan.place for plan in self._carries.values())
+
     # Picks
 
     def pick_of(self, box: BoxId) -> PickPlan | None:

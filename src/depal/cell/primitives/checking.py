@@ -38,7 +38,7 @@ class Checking:
         self._desk.viewing.clears(box, plan.first)
         stopped = await follow(plan.first, self._guards.holding(lambda: context.stop_reason))
         if stopped is not None:
-            return report_loss(self._work, box, stopped)
+            return await report_loss(self._work, box, stopped)
         self._shown = plan
         return Report(((ARM_AT, READER),))
 
@@ -51,7 +51,7 @@ class Checking:
             if turn is not None:
                 stopped = await work.ports.arm.follow(turn, self._guards.holding())
                 if stopped is not None:
-                    return report_loss(work, box, stopped)
+                    return await report_loss(work, box, stopped)
             codes = await work.ports.reader.read()
             seen += [code for code in codes if code not in seen]
             known = [Gtin(code) for code in codes if Gtin(code) in work.delivery.products]

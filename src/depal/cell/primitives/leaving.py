@@ -1,4 +1,4 @@
-"""The primitives of `query` and `leave`: find a place, carry the box there, set it down."""
+"""The primitives of `leave`: carry the box to its place, set it down."""
 
 from depal.cell.departures import Fate
 from depal.cell.guards import LOST, Guards
@@ -22,6 +22,7 @@ class Leaving:
         self._work = work
         self._desk = desk
         self._guards = guards
+        self._standing: dict[BoxId, CarryPlan] = {}
 
     async def carry(self, context: Context) -> Report:
         """Carries the held box into its place, just above where it will stand."""
@@ -39,45 +40,55 @@ class Leaving:
         stopped = await self._work.ports.arm.follow(plan.motion, guard)
         if stopped is not None:
             self._desk.promises.forget_carry(box)
-            return report_loss(self._work, box, stopped)
+            way_out = self._desk.carrying.way_out(plan)
+            return await report_loss(self._work, box, stopped, way_out)
         return Report(((ARM_AT, place),))
 
     async def release(self, context: Context) -> Report:
         """Sets the box down until it stands, vents, draws back; one change of facts."""
         box = BoxId(context.args["Box"])
-        plan = self._desk.promises.carry_in_hand(box)
-        stopped = await self._set_down(plan)
-        if stopped is not None:
-            return report_loss(self._work, box, stopped)
-        self._work.ended(box, Fate.STORED, plan.place)
-        await self._tell(box, plan)
+        lost = await self._put_down(box, Fate.STORED, "")
+        if lost is not None:
+            return lost
+        await self._tell(box)
         return Report(((f"{box}.taken", False), (f"{box}.stored", True), (ARM_AT, None)))
 
     async def put(self, context: Context) -> Report:
         """The same for a box that is set aside or moved."""
         box, place = BoxId(context.args["Box"]), PlaceId(context.args["To"])
-        plan = self._desk.promises.carry_in_hand(box)
-        stopped = await self._set_down(plan)
-        if stopped is not None:
-            return report_loss(self._work, box, stopped)
         reason = self._work.aside_reasons.get(box, "set aside")
-        self._work.ended(box, Fate.SET_ASIDE, plan.place, reason)
+        lost = await self._put_down(box, Fate.SET_ASIDE, reason)
+        if lost is not None:
+            return lost
         return Report(((f"{box}.taken", False), (f"{box}.at", place), (ARM_AT, None)))
 
-    async def _set_down(self, plan: CarryPlan) -> str | None:
-        ports, held = self._work.ports, self._work.held
-        mass = held.mass if held is not None else 0.0
-        lost = self._guards.holding(self._guards.touches_down(mass))
-        if await ports.arm.follow(plan.descent, lost) == LOST:
-            return LOST
-        await ports.gripper.release()
-        self._desk.promises.confirm(plan)
+    async def _put_down(self, box: BoxId, fate: Fate, reason: str) -> Report | None:
+        """Down until it stands, then away; taken up half-way, it goes on from there."""
+        plan = self._standing.get(box)
+        if plan is None:
+            plan = self._desk.promises.carry_in_hand(box)
+            if await self._lower(plan) == LOST:
+                back = self._desk.carrying.retreat(plan)
+                return await report_loss(self._work, box, LOST, back)
+            self._standing[box] = plan
+            self._desk.promises.confirm(plan)
+            self._work.ended(box, fate, plan.place, reason)
         retreat = self._desk.carrying.retreat(plan)
         if retreat is not None:
-            await ports.arm.follow(retreat)
+            await self._work.ports.arm.follow(retreat)
         return None
 
-    async def _tell(self, box: BoxId, plan: CarryPlan) -> None:
+    async def _lower(self, plan: CarryPlan) -> str | None:
+        ports, held = self._work.ports, self._work.held
+        mass = held.mass if held is not None else 0.0
+        guard = self._guards.holding(self._guards.touches_down(mass))
+        if await ports.arm.follow(plan.descent, guard) == LOST:
+            return LOST
+        await ports.gripper.release()
+        return None
+
+    async def _tell(self, box: BoxId) -> None:
+        plan = self._standing[box]
         product = self._work.product_of(box)
         gtin = product.gtin if product else None
         movement = Movement(f"{box}@{plan.place}", box, gtin, plan.place, self._work.now)

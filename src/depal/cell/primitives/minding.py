@@ -50,11 +50,12 @@ class Minding:
         return Report(((f"{box}.decision", answer),))
 
     async def carry_on(self, context: Context) -> Report:
-        """The box is out of the way: its store is withdrawn."""
+        """The box is out of the way: its store is withdrawn, and the pile looked at anew."""
         box = context.args["Box"]
         runtime = self._work.runtime
         for number, tree in list(runtime.engine.state.trees.items()):
             if tree.root.node.args == (box,) and tree.root.node.schema.name != "recover":
                 runtime.withdraw(number, "a person has taken the box")
+        self._work.pile.see(await self._work.ports.sight.look())
         facts = ((f"{box}.fault", None), (f"{box}.on_floor", False), (f"{box}.decision", None))
         return Report(facts)
