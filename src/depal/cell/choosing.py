@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Perceived
+from depal.domain import BoxId, Perceived, Recognition
 from depal.selection import BlockingGraph, Decision, Refused, ScoreRule, select
 
 
@@ -37,6 +37,8 @@ def choose(work: Workplace, desk: Desk) -> Choice:
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
         reason = work.left_behind.get(box.id)
+        if isinstance(box, Recognition):
+            reason = work.impossible.get(box.gtin, reason)
         if reason is not None:
             return Refused(reason)
         plan = desk.picking.try_pick(box)

@@ -1,7 +1,7 @@
 """Everything that a primitive works with: the ports, and what the cell believes."""
 
 import asyncio
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -125,6 +125,7 @@ class Workplace:
         ports: everything outside.
         settings: of the run.
         questions: to the supervising person.
+        impossible: products that the arm cannot handle, and why.
         pile: what stands on the pallet.
         wishes: what is wanted.
         departures: what became of the boxes.
@@ -139,6 +140,7 @@ class Workplace:
     ports: Ports
     settings: Settings
     questions: Questions
+    impossible: Mapping[Gtin, str] = field(default_factory=dict)
     pile: Pile = field(init=False)
     wishes: Wishes = field(default_factory=lambda: Wishes(()))
     departures: Departures = field(default_factory=Departures)

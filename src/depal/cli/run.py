@@ -4,6 +4,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from rich.console import Console
 
 from depal.cli.output import JsonFile, Seed, console
 
@@ -49,7 +50,12 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         speed=speed,
         record=record,
     )
-    report = run_delivery(options, watch=True)
+    warn = Console(stderr=True, soft_wrap=True)
+    report = run_delivery(
+        options,
+        watch=True,
+        say=lambda text: warn.print(f"left to a person: {text}", style="yellow", markup=False),
+    )
     for part in report.shown:
         console().print(part, highlight=False)
     if json_file is not None:

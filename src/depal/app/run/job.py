@@ -2,6 +2,7 @@
 
 import asyncio
 import time
+from collections.abc import Callable, Mapping
 from contextlib import nullcontext
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -24,7 +25,7 @@ from depal.cell.reporting import Journalist
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import BoxId, CellLayout, Delivery, Request, checked_share
+from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
@@ -82,6 +83,7 @@ class Job:
         seed: of every random number.
         sight: how good the perception is.
         cone: whether motions respect the suction's limits.
+        impossible: products that the arm cannot handle, and why; their cases go to a person.
     """
 
     layout: CellLayout
@@ -91,15 +93,25 @@ class Job:
     seed: int = 0
     sight: SightSettings = field(default_factory=SightSettings)
     cone: bool = True
+    impossible: Mapping[Gtin, str] = field(default_factory=dict)
 
 
-def run_delivery(options: Options, *, watch: bool = False) -> Report:
+def run_delivery(
+    options: Options, *, watch: bool = False, say: Callable[[str], None] = lambda _: None
+) -> Report:
     """Reads everything, runs, and sums up.
+
+    Args:
+        options: what was asked for.
+        watch: whether somebody watches in the terminal.
+        say: told before anything moves what this cell cannot do with this delivery.
 
     Raises:
         InputError: something that was given cannot be used; nothing has moved.
     """
     job = prepared(options)
+    for reason in job.impossible.values():
+        say(reason)
     outcome = run_job(job, record=options.record, watch=watch)
     report = run_report(outcome, options.perception)
     if options.record is not None:
@@ -119,14 +131,24 @@ def prepared(options: Options) -> Job:
         raise SettingError("--perception", what, exists=exists)
     layout = cell_of(options.cell)
     delivery, requests = _delivery_and_requests(options)
-    refuse_what_cannot_work(layout, delivery)
+    findings = refuse_what_cannot_work(layout, delivery)
+    impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
     settings = Settings(
         w=checked_share("--w", options.w),
         policy=policy_of(options.policy),
         speed=checked_speed(options.speed),
     )
     recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
-    return Job(layout, delivery, requests, settings, options.seed, recognised, options.cone)
+    return Job(
+        layout,
+        delivery,
+        requests,
+        settings,
+        options.seed,
+        recognised,
+        options.cone,
+        impossible,
+    )
 
 
 def _delivery_and_requests(options: Options) -> tuple[Delivery, tuple[Request, ...]]:
@@ -170,7 +192,8 @@ async def _run(
     store.seed_places([job.delivery], places, seed=job.seed)
     times = Timekeeper(clock)
     ports = timed(_ports(cell, store, clock), times)
-    work = Workplace(job.layout, job.delivery, ports, job.settings, Questions(ports.person, clock))
+    questions = Questions(ports.person, clock)
+    work = Workplace(job.layout, job.delivery, ports, job.settings, questions, job.impossible)
     planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
     notes = Journalist()

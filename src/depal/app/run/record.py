@@ -46,6 +46,8 @@ class Keeper:
             return cls(None, MemoryJournal())
         if (folder / JOURNAL).exists():
             raise JournalError(f"{folder}: holds a record already; expected a new folder")
+        if folder.exists() and not folder.is_dir():
+            raise JournalError(f"{folder}: is a file; expected a new folder")
         return cls(folder, open_record(folder, tasks))
 
     @property
