@@ -22,15 +22,17 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
+from depal.cell.stock import movements_in
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
+from depal.cell.wishes import Wish
 from depal.cell.workplace import Ports, Settings, Workplace
 from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
 from depal.logistics import read_delivery, read_requests
-from depal.logistics.store import LocalStore, by_storage
+from depal.logistics.store import LocalStore, RequestState, StockProjection, by_storage
 from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.truth_sight import SightSettings
 
@@ -201,13 +203,29 @@ async def _run(
     keeper.listen_to(notes)
     view = LiveView(work, len(job.delivery.boxes))
     view.listen_to(notes)
+    keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
         await controller.empty_pallet(job.requests)
     filming.cancel()
     film.take()
+    _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
     return _outcome(job, work, desk, cell, keeper, times), film
+
+
+def _close_books(
+    store: LocalStore, keeper: Keeper, controller: Controller, wishes: Mapping[str, Wish]
+) -> None:
+    """Brings the store's data up to date: requests have ended, the stock follows the journal."""
+    state = controller.runtime.engine.state
+    for key, wish in wishes.items():
+        if wish.served is not None:
+            store.settle(key, RequestState.SERVED, wish.served, f"by {wish.box}")
+        else:
+            store.settle(key, RequestState.REJECTED, state.now, "no case of it was left")
+    stock = StockProjection(store.database, lambda record: movements_in(record, state.facts))
+    stock.catch_up(keeper.journal)
 
 
 def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:

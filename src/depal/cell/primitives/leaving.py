@@ -6,6 +6,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
+from depal.cell.stock import movement_id
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId
 from depal.executive.engine import Report
@@ -91,5 +92,5 @@ class Leaving:
         plan = self._standing[box]
         product = self._work.product_of(box)
         gtin = product.gtin if product else None
-        movement = Movement(f"{box}@{plan.place}", box, gtin, plan.place, self._work.now)
+        movement = Movement(movement_id(box, plan.place), box, gtin, plan.place, self._work.now)
         await self._work.ports.store.moved(movement)
