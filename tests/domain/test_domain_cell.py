@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from depal.domain import (
@@ -133,7 +133,8 @@ def test_each_limit_of_a_group_of_cups_breaks_where_statics_say() -> None:
 def test_more_vacuum_never_holds_less(
     force: tuple[float, float, float], moment: tuple[float, float, float], pull: float
 ) -> None:
-    """Whatever the load."""
+    """Whatever the load, as long as the cups are not pulled off straight."""
+    assume(force[0] < pull)
     group = CupGroup.of(np.array(CUPS), 0.03, 0.5)
     weak, _ = group.load_share(np.array(force), np.array(moment), pull)
     strong, _ = group.load_share(np.array(force), np.array(moment), 1.1 * pull)
