@@ -1,10 +1,11 @@
 """What the cell believes stands on the pallet, and what has left it."""
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.departures import Departure, Departures, Fate
-from depal.cell.pile import MISSED, Pile
+from depal.cell.pile import LEVEL, MISSED, Deck, Pile, settled
 from depal.domain import BoxId, Detection, Gtin, Recognition
 from depal.geometry import OrientedBox
 from depal.ports import View
@@ -57,3 +58,33 @@ def test_departures_come_in_the_order_of_leaving(order: list[str]) -> None:
         departures.ends(Departure(BoxId(name), None, None, None, Fate.STORED, "", 99.0))
     assert [d.box for d in departures.sequence] == order
     assert [d.at for d in departures.sequence] == [float(step) for step in range(len(order))]
+
+
+@given(
+    st.lists(
+        st.tuples(st.floats(1.5, 2.1), st.floats(-0.5, 0.5), st.floats(0.2, 1.2)),
+        min_size=1,
+        max_size=8,
+    )
+)
+def test_a_box_is_never_believed_far_from_where_it_was_seen(
+    centres: list[tuple[float, float, float]],
+) -> None:
+    """Standing level and square corrects errors of the picture, and invents nothing."""
+    boxes = [
+        Detection(BoxId(f"b{number}"), OrientedBox.upright(centre, (0.3, 0.2, 0.25), 0.01))
+        for number, centre in enumerate(centres)
+    ]
+    for before, after in zip(boxes, settled(boxes, Deck(0.144, 0.0)), strict=True):
+        assert after.shape.centre[:2] == before.shape.centre[:2]
+        assert abs(after.shape.centre[2] - before.shape.centre[2]) <= LEVEL
+        assert after.shape.pose.rotation[1][0] == pytest.approx(0.0)
+
+
+def test_of_two_things_that_could_carry_a_box_the_nearer_does() -> None:
+    """Not the higher one: the cups would stop short of the box."""
+    low = Detection(BoxId("low"), OrientedBox.upright((1.6, 0.0, 0.244), (0.3, 0.3, 0.2)))
+    high = Detection(BoxId("high"), OrientedBox.upright((1.9, 0.0, 0.250), (0.3, 0.3, 0.212)))
+    upon = Detection(BoxId("upon"), OrientedBox.upright((1.75, 0.0, 0.446), (0.4, 0.3, 0.2)))
+    *_, after = settled((low, high, upon), Deck(0.144, 0.0))
+    assert after.shape.centre[2] == pytest.approx(0.444)

@@ -453,3 +453,12 @@ def test_a_person_is_told_why_a_box_could_not_be_taken() -> None:
     cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4), 0.0))).works()
     assert "the vacuum did not come" in texts(cell)[0]
     assert cell.work.departures.sequence[0].reason == "the vacuum did not come"
+
+
+def test_an_arm_on_which_nothing_hangs_has_taken_nothing() -> None:
+    """Though the sensor says that the vacuum stands: the box is tried again, then a person's."""
+    cell = Cell(1)
+    cell.arm.hanging = lambda: 0.0
+    cell.works()
+    assert [d.fate for d in cell.work.departures.sequence] == [PERSON]
+    assert "0.0 kg hang on the arm" in texts(cell)[0]

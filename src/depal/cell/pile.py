@@ -10,8 +10,8 @@ from depal.domain import BoxId, Gtin, Perceived, Recognition
 from depal.geometry import OrientedBox, Pose
 from depal.ports import View
 
-MISSED = 3
-"""So many looks in a row may miss a box before it is believed to be gone."""
+MISSED = 20
+"""So many looks in a row may miss a box, behind the arm say, before it is believed to be gone."""
 
 
 MOVED = 0.015
@@ -20,8 +20,11 @@ MOVED = 0.015
 LOOKS = 8
 """So many looks at a box count together at the most."""
 
-LEVEL = 0.015
+LEVEL = 0.010
 """A box whose bottom is this near to what could carry it stands on it [m]."""
+
+OVER = 0.015
+"""Boxes that overlap on the ground by more than this may carry one another [m]."""
 
 SQUARE = math.radians(1.5)
 """A box that is turned less than this against the pallet stands square on it."""
@@ -161,15 +164,15 @@ def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck) -> float:
     bottom = _bottom(box)
     heights = [deck.height]
     heights += [_bottom(other) + other.size[2] for other in below if _over(box, other)]
-    near = [height for height in heights if abs(height - bottom) < LEVEL]
-    return max(near, default=bottom)
+    nearest = min(heights, key=lambda height: abs(height - bottom))
+    return nearest if abs(nearest - bottom) < LEVEL else bottom
 
 
 def _over(box: OrientedBox, other: OrientedBox) -> bool:
     """Whether two upright boxes overlap on the ground, roughly: by their bounding rectangles."""
     one, two = _reach(box), _reach(other)
     return all(
-        abs(a - b) < (r + s) / 2 - LEVEL
+        abs(a - b) < (r + s) / 2 - OVER
         for a, b, r, s in zip(box.centre[:2], other.centre[:2], one, two, strict=True)
     )
 

@@ -11,6 +11,9 @@ from depal.executive.runtime import Context
 
 ARM_AT = "kr60.at"
 
+LIGHT = 0.25
+"""Where less than this share of the expected mass hangs on the arm, it holds nothing."""
+
 
 class Taking:
     """Gets a box into the gripper."""
@@ -48,6 +51,8 @@ class Taking:
         limit = self._work.layout.robot.payload - self._work.layout.tool.mass
         if slipped is None and mass > limit:
             slipped = f"{mass:.1f} kg is more than the arm may carry ({limit:.1f} kg)"
+        if slipped is None and mass < LIGHT * plan.mass:
+            slipped = f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
         if slipped is not None:
             return await self._let_go(plan, slipped)
         self._work.lifted(box, plan.grasp, plan.box.shape.size, mass)
