@@ -34,7 +34,6 @@ _NEEDED = (
     "PyYAML",
     "mujoco-core",
     "ompl",
-    "toppra",
     "opencv-contrib-python-headless",
     "zxing-cpp",
     "SQLAlchemy",
