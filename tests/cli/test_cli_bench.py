@@ -192,5 +192,5 @@ def test_the_doctor_says_what_does_not_load(
 def test_the_doctor_looks_at_every_package_that_depal_depends_on() -> None:
     """By the name that installs it."""
     found = {finding.name.lower() for finding in examine()}
-    assert found >= {"mujoco-core", "ompl", "toppra", "zxing-cpp", "sqlalchemy", "numba"}
+    assert found >= {"mujoco-core", "ompl", "pillow", "zxing-cpp", "sqlalchemy", "numba"}
     assert "opencv-contrib-python-headless" in found

@@ -93,8 +93,9 @@ def test_the_status_says_whether_the_run_holds(
     """0 where it does, 1 where something was lost; the result is written in any case."""
     asked: list[Options] = []
 
-    def run_delivery(options: Options, *, watch: bool) -> Report:
+    def run_delivery(options: Options, *, watch: bool, say: Callable[[str], None]) -> Report:
         asked.append(options)
+        assert callable(say)
         return Report({"watched": watch}, ["shown"], holds=holds)
 
     monkeypatch.setattr(depal_job(), "run_delivery", run_delivery)

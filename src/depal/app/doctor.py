@@ -35,6 +35,7 @@ _NEEDED = (
     "mujoco-core",
     "ompl",
     "opencv-contrib-python-headless",
+    "pillow",
     "zxing-cpp",
     "SQLAlchemy",
 )
