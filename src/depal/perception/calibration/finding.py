@@ -13,7 +13,7 @@ from depal.perception.calibration.markers import MODULES, PLATE, dictionary
 Floats = npt.NDArray[np.float64]
 Bytes = npt.NDArray[np.uint8]
 Found = Mapping[int, Floats]
-"""By pattern: corners of the black square as printed, upper left first, clockwise: (4, 2) [pixel]."""
+"""By pattern the corners of the black square, clockwise from its upper left: (4, 2) [pixel]."""
 
 SMALLEST = 24.0
 """A marker whose shorter diagonal is shorter cannot be read [pixel]."""
@@ -23,7 +23,7 @@ AHEAD = 0.1
 
 
 def corners_of(fiducial: Fiducial, edge: float = 1.0) -> Floats:
-    """Corners of a marker: upper left, upper right, lower right, lower left: (4, 3) in the cell [m].
+    """Corners of a marker in the cell, clockwise from its upper left: (4, 3) [m].
 
     Args:
         fiducial: the marker.
@@ -116,7 +116,7 @@ def _read(grey: Bytes, patterns: frozenset[int]) -> dict[int, Floats]:
     settings.adaptiveThreshWinSizeStep = 20
     detector = cv2.aruco.ArucoDetector(dictionary(), settings)
     squares, ids, _ = detector.detectMarkers(grey)
-    names = [] if ids is None else np.asarray(ids).ravel().tolist()
+    names = list[int]() if ids is None else [int(i) for i in np.asarray(ids).ravel()]
     return {
         name: _refined(grey, np.asarray(square, dtype=np.float32).reshape(4, 1, 2))
         for name, square in zip(names, squares, strict=True)
