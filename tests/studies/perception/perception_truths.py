@@ -5,31 +5,36 @@ from dataclasses import replace
 
 import numpy as np
 
-from depal.domain import CameraMount, Gtin
+from depal.domain import Gtin
 from depal.geometry import OrientedBox, Pose
-from depal.perception.faces import Face, Look, Name, Relation, SeenBox
-from depal.simulation.imaging.lens import aimed
-from depal.studies.perception import TrueBox, TrueFace, Truth, true_relations, truth_of
+from depal.perception.faces import Face, Facing, Look, Name, Relation, SeenBox
+from depal.simulation.scenes.truth import front_and_top
+from depal.studies.perception import TrueBox, TrueFace, Truth, true_relations
 
-CAMERAS = (
-    CameraMount("front", aimed((-0.8, -0.4, 0.7), (1.6, 0.0, 0.5)), (1080, 1920), (720, 1280), 1.2),
-    CameraMount("top", aimed((1.5, 0.0, 3.4), (1.6, 0.0, 0.0)), (1920, 1080), (1280, 720), 0.75),
-)
+SIZE = (0.3, 0.4, 0.25)
 
 
 def wall_of(columns: int = 3, rows: int = 2, depths: int = 1) -> Truth:
     """Boxes of 0.3 x 0.4 x 0.25 in a block, a millimetre apart, each its own product."""
-    shapes = [
-        OrientedBox.upright((1.6 + 0.301 * k, 0.401 * (i - columns / 2), 0.27 + 0.25 * j), SIZE)
-        for k in range(depths)
-        for i in range(columns)
-        for j in range(rows)
-    ]
-    boxes = [TrueBox(shape, Gtin(f"{n:014d}")) for n, shape in enumerate(shapes)]
-    return truth_of(boxes, CAMERAS)
+    boxes: list[TrueBox] = []
+    faces: list[TrueFace] = []
+    for depth in range(depths):
+        for column in range(columns):
+            for row in range(rows):
+                at = (1.6 + 0.301 * depth, 0.401 * (column - columns / 2), 0.27 + 0.25 * row)
+                box = len(boxes)
+                boxes.append(TrueBox(OrientedBox.upright(at, SIZE), Gtin(f"{box:014d}")))
+                front, top = faces_of(box, boxes[-1].shape)
+                faces.append(replace(front, visible=float(depth == 0)))
+                faces.append(replace(top, visible=float(row == rows - 1)))
+    return Truth(tuple(boxes), tuple(faces))
 
 
-SIZE = (0.3, 0.4, 0.25)
+def faces_of(index: int, shape: OrientedBox) -> tuple[TrueFace, TrueFace]:
+    """The front and the top of an upright box of `SIZE`."""
+    front, top = front_and_top(shape, np.array((-1.0, 0.0, 0.0)))
+    x, y, z = shape.size
+    return TrueFace(Facing.FRONT, index, front, (y, z)), TrueFace(Facing.TOP, index, top, (y, x))
 
 
 def face_like(true: TrueFace, right: float = 0.0, down: float = 0.0, deep: float = 0.0) -> Face:
