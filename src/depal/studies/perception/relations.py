@@ -1,8 +1,9 @@
 """Whether what stands on what, and what hides what, was seen as it is (section II-C).
 
-A relation is asked for where it holds by a clear margin; it is accepted where it holds at all; in
-between it is neither right nor wrong. Standing on something is asked for where two boxes touch; a
-box that is above another without touching it may be told to be on it, or not.
+The relations are the selection's: one box is on another when their footprints overlap and it is
+higher, at whatever distance; it hides another when they overlap as seen from the robot and it is
+nearer. A relation is asked for where it holds by a clear margin; it is accepted where it holds at
+all; in between it is neither right nor wrong.
 """
 
 from collections.abc import Callable, Collection, Mapping, Sequence
@@ -26,9 +27,6 @@ BARELY = 0.0005
 
 SLACK = 0.02
 """Real boxes reach into each other by so much at the most, where they bulge or settle [m]."""
-
-TOUCHING = 0.01
-"""The gap between a box and what it stands on is less than this [m]."""
 
 LIKELY = 0.5
 """A relation of a greater probability is believed."""
@@ -67,17 +65,10 @@ class RelationCounts:
 def true_relations(shapes: Sequence[OrientedBox]) -> tuple[TrueRelations, TrueRelations]:
     """What stands on what, and what hides what from somebody at the robot, of true shapes."""
     clear, barely = _coded(shapes, CLEAR), _coded(shapes, BARELY)
-    tops = {i: box.corners[:, 2].max() for i, box in enumerate(shapes)}
-    bottoms = {i: box.corners[:, 2].min() for i, box in enumerate(shapes)}
-
-    def touches(pair: Pair) -> bool:
-        return bool(abs(bottoms[pair[0]] - tops[pair[1]]) < TOUCHING)
-
-    on_top = TrueRelations(
-        frozenset(filter(touches, clear(A_ON_B, B_ON_A))), barely(A_ON_B, B_ON_A)
+    return (
+        TrueRelations(clear(A_ON_B, B_ON_A), barely(A_ON_B, B_ON_A)),
+        TrueRelations(clear(A_BEFORE_B, B_BEFORE_A), barely(A_BEFORE_B, B_BEFORE_A)),
     )
-    hides = TrueRelations(clear(A_BEFORE_B, B_BEFORE_A), barely(A_BEFORE_B, B_BEFORE_A))
-    return on_top, hides
 
 
 def judged(
