@@ -124,9 +124,7 @@ def _has_sibling(
 ) -> bool:
     """Whether a known product of the same range is as large."""
     family, edges = family_of(gtin), _edges(size)
-    return any(
-        other != gtin and its == family and theirs == edges for other, its, theirs in known
-    )
+    return any(other != gtin and its == family and theirs == edges for other, its, theirs in known)
 
 
 def _edges(size: Vector3) -> tuple[int, ...]:
