@@ -10,13 +10,14 @@ from pathlib import Path
 from depal.app.files import write_json
 from depal.app.progress import progress_bar
 from depal.app.reports.report import Report
+from depal.app.run.accounting import Onlooker, left_behind, meant
 from depal.app.run.case2 import NAME as CASE2
 from depal.app.run.case2 import case2_delivery, case2_requests
 from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, policy_of, refuse_what_cannot_work
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
-from depal.app.run.summary import UNSEEN, Left, Outcome, disagreements, run_report
+from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
@@ -27,7 +28,7 @@ from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.wishes import Wish
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request, checked_share
+from depal.domain import CellLayout, Delivery, Gtin, Request, checked_share
 from depal.errors import MissingPartError, SettingError, did_you_mean
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.schema import Repository
@@ -201,6 +202,7 @@ async def _run(
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
+    Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.delivery.boxes))
     view.listen_to(notes)
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
@@ -247,21 +249,21 @@ def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:
 def _outcome(
     job: Job, work: Workplace, desk: Desk, cell: SimulatedCell, keeper: Keeper, times: Timekeeper
 ) -> Outcome:
-    boxes = len(job.delivery.boxes)
+    boxes = len(cell.world.cases)
     sequence = work.departures.sequence
-    left = [Left(box.id, work.left_behind.get(box.id, "the run ended")) for box in work.pile.boxes]
-    missing = boxes - len(left) - len(sequence)
-    left += [Left(BoxId(f"{UNSEEN} {k}"), "never seen") for k in range(1, missing + 1)]
+    left = left_behind(work, sequence, cell.witness, boxes)
+    stack = meant(cell.witness.indices, left, cell.referee, boxes)
     shares = times.shares(work.now)
     return Outcome(
         delivery=job.delivery.id,
         boxes=boxes,
+        stack=stack,
         departures=sequence,
-        left=tuple(left),
+        left=left,
         wishes=tuple(work.wishes),
         questions=work.questions.all,
         referee=cell.referee.summary(),
-        disagreements=disagreements(cell.referee, sequence, left, boxes),
+        disagreements=disagreements(cell.referee, sequence, left, stack),
         sim_seconds=work.now,
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,
