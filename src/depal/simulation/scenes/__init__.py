@@ -1,0 +1,18 @@
+"""Scenes for perception: pictures of a pallet with their truth, without physics."""
+
+from depal.simulation.imaging.severity import Severity
+from depal.simulation.scenes.piles import Kind
+from depal.simulation.scenes.random_stacks import random_delivery
+from depal.simulation.scenes.scene import Scene, scene
+from depal.simulation.scenes.truth import TrueBox, TrueFace, Truth
+
+__all__ = [
+    "Kind",
+    "Scene",
+    "Severity",
+    "TrueBox",
+    "TrueFace",
+    "Truth",
+    "random_delivery",
+    "scene",
+]
