@@ -65,6 +65,7 @@ class Pile:
         self._memory = Memory(patience=MISSED)
         self._boxes: dict[BoxId, Perceived] = {}
         self._taken: dict[BoxId, float] = {}
+        self._left: dict[BoxId, Gtin | None] = {}
         self._read: dict[BoxId, Gtin] = {}
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
@@ -87,6 +88,13 @@ class Pile:
 
     def take(self, box: BoxId, at: float = 0.0) -> None:
         """A box was lifted off [s]."""
+        if box not in self._taken:
+            there = self.get(box)
+            self._left[box] = there.gtin if isinstance(there, Recognition) else None
+        self.forget(box, at)
+
+    def forget(self, box: BoxId, at: float = 0.0) -> None:
+        """A box is not there, and never was: somebody has looked [s]."""
         self._taken.setdefault(box, at)
         self._boxes.pop(box, None)
         self._memory = self._memory.without(box, at)
@@ -94,12 +102,26 @@ class Pile:
     def put_back(self, box: Perceived) -> None:
         """A box stands on the pallet again; the next look says where."""
         self._taken.pop(box.id, None)
+        self._left.pop(box.id, None)
         self._boxes[box.id] = box
         self._memory = self._memory.back(box.id, _seen(box), 0.0)
 
     def identify(self, box: BoxId, gtin: Gtin) -> None:
         """A box that was only detected has been read: from now on it is recognised."""
         self._read[box] = gtin
+        if box in self._left:
+            self._left[box] = gtin
+
+    def doubt(self, box: BoxId) -> None:
+        """What a box was taken to be is not so."""
+        self._read.pop(box, None)
+        if box in self._left:
+            self._left[box] = None
+
+    @property
+    def left_as(self) -> tuple[Gtin | None, ...]:
+        """The products of the boxes that were lifted off; None where nobody knows."""
+        return tuple(self._left.values())
 
     @property
     def taken(self) -> Mapping[BoxId, float]:
