@@ -64,9 +64,7 @@ class Mimic:
         """What a look finds."""
         del frames, expected, book, before
         number, self.looks = self.looks, self.looks + 1
-        sight = TruthSight(
-            self.cell.world, _Still(), SightSettings(share=self.failures.share)
-        )
+        sight = TruthSight(self.cell.world, _Still(), SightSettings(share=self.failures.share))
         visible = sorted(sight.visible_boxes())
         random = np.random.default_rng([self.seed, 9, number])
         found: list[SeenBox] = []
@@ -135,9 +133,7 @@ class Mimic:
 
     def _merged(self, one: int, two: int) -> SeenBox:
         """One box that covers both."""
-        corners = np.concatenate(
-            [OrientedBox(*self._truth(index)).corners for index in (one, two)]
-        )
+        corners = np.concatenate([OrientedBox(*self._truth(index)).corners for index in (one, two)])
         low, high = corners.min(axis=0), corners.max(axis=0)
         return _seen(
             OrientedBox(Pose(tuple(((low + high) / 2).tolist())), tuple((high - low).tolist())), 0.6
@@ -169,9 +165,7 @@ class QuickCamera:
         self.cell.world.advance(self.clock.now())
         k = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
         empty = np.zeros((2, 2), dtype=np.float32)
-        return Frame(
-            self.clock.now(), np.zeros((2, 2, 3), dtype=np.uint8), empty, k, k, Pose()
-        )
+        return Frame(self.clock.now(), np.zeros((2, 2, 3), dtype=np.uint8), empty, k, k, Pose())
 
 
 def mimicking(failures: Failures | None = None):  # noqa: ANN201 - a callable of `run_job`
