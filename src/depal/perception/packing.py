@@ -41,7 +41,7 @@ def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
         return [int(index) for index in useful]
     result = milp(
         -values[useful],
-        integrality=np.ones(len(useful)),
+        integrality=np.ones(len(useful), dtype=np.int64),
         bounds=Bounds(0.0, 1.0),
         constraints=LinearConstraint(csr_array(shared.astype(float)), -np.inf, 1.0),
         options={"node_limit": NODES},
