@@ -35,7 +35,7 @@ def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
     useful = np.flatnonzero(values > 0.0)
     if not useful.size:
         return []
-    inside = _inside([rectangles[index] for index in useful])
+    inside = _inside([rectangles[index] for index in useful.tolist()])
     shared = np.unique(inside[inside.sum(axis=1) > 1], axis=0)
     if not len(shared):
         return [int(index) for index in useful]
