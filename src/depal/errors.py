@@ -8,7 +8,8 @@
     │   ├── TaskError       a task file, or a call of a task, that cannot be used
     │   ├── BookError       a picture book that cannot be used
     │   ├── SettingError    a number or a name outside its range
-    │   └── CellError       a cell file, or a cell that cannot do its work
+    │   ├── CellError       a cell file, or a cell that cannot do its work
+    │   └── FrameError      a recorded frame, or a calibration, that cannot be used
     ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
@@ -26,6 +27,7 @@ __all__ = [
     "DeliveryError",
     "DepalError",
     "DeviceError",
+    "FrameError",
     "InputError",
     "JournalError",
     "MissingPartError",
@@ -129,6 +131,10 @@ class SettingError(InputError):
 
 class CellError(InputError):
     """A cell file that cannot be used, or a cell that cannot do its work."""
+
+
+class FrameError(InputError):
+    """A recorded frame, or a calibration, that cannot be used."""
 
 
 class DeviceError(DepalError):

@@ -15,10 +15,11 @@ from depal.simulation.devices import (
 from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
-from depal.simulation.people import Policy, SimulatedPerson, first_choice
+from depal.simulation.people import Policy, SimulatedPerson
 from depal.simulation.referee import Referee
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.witness import Witness
 from depal.simulation.world import World
 
 
@@ -50,6 +51,11 @@ class SimulatedCell:
     reader: BarcodeReader
     camera: Camera
 
+    @property
+    def witness(self) -> Witness:
+        """Who has seen which box a name means."""
+        return self.person.witness
+
 
 def build(
     layout: CellLayout,
@@ -59,7 +65,7 @@ def build(
     clock: Clock | None = None,
     start: float = 0.0,
     sight: SightSettings | None = None,
-    policy: Policy = first_choice,
+    policy: Policy | None = None,
 ) -> SimulatedCell:
     """Builds a cell with a delivery on its pallet.
 
@@ -70,7 +76,7 @@ def build(
         clock: the loop's time where nothing else is said.
         start: the time at the beginning [s].
         sight: how good the perception from the truth is.
-        policy: how the worker answers.
+        policy: how the worker answers; None for what is so.
 
     Returns:
         The cell with its stack settled and the arm parked.
