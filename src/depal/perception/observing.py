@@ -6,14 +6,13 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from depal.domain import DeliveryLine, Product
+from depal.domain import Product
 from depal.geometry import Pose
 from depal.perception.assembling import boxes_of
 from depal.perception.detecting import Expected, Finder, Found
-from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
-from depal.perception.pictures import PictureBook
+from depal.perception.faces import Face, Facing, Look, Raster
 from depal.perception.rasters import Region, rasters_of
-from depal.perception.recognition import Gallery, Patch, gallery_of, identify, patch_of
+from depal.perception.recognition import Gallery, identify, patch_of
 from depal.ports import Frame
 
 STEEPEST = math.radians(6)
