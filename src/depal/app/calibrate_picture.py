@@ -16,7 +16,7 @@ from depal.studies.drawing.sheet import MARGIN, WIDTH, sheet
 FOUND, HIDDEN = "#2e9e5b", "#d1663a"
 """Outlines of markers that are found, and of those that should be seen and are not."""
 
-_HEIGHT = 5.2
+_HIGHEST = 5.2
 _GAP = 0.15
 
 
@@ -33,8 +33,11 @@ def calibration_picture(
         found: the calibrations.
     """
     worst = max(one.residual for one in found.values())
+    shapes = {name: these[0].colour.shape[:2] for name, these in frames.items()}
+    room = WIDTH - 2 * MARGIN - _GAP * (len(shapes) - 1)
+    tall = min(_HIGHEST, room / sum(width / height for height, width in shapes.values()))
     drawn = sheet(
-        _HEIGHT,
+        tall,
         f"{layout.name}: markers are where the cell file has them to {1000 * worst:.1f} mm",
         "Green outlines: markers found in the first picture of each camera. Orange: markers in its "
         "view that something hides.",
@@ -43,14 +46,10 @@ def calibration_picture(
             for name, one in found.items()
         ),
     )
-    shapes = {name: these[0].colour.shape[:2] for name, these in frames.items()}
-    room = WIDTH - 2 * MARGIN - _GAP * (len(shapes) - 1)
-    wide = sum(width / height for height, width in shapes.values())
-    tall = min(_HEIGHT, room / wide)
     left = MARGIN
     for name, (height, width) in shapes.items():
         across = tall * width / height
-        area = (left, _HEIGHT - tall, across, tall)
+        area = (left, 0.0, across, tall)
         axes, _ = drawn.picture(area, (0.0, float(width), 0.0, float(height)))
         frame, one = frames[name][0], found[name]
         _draw(axes, frame.colour, checked(frame, layout.fiducials, one))
