@@ -5,26 +5,22 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-import numpy as np
-import numpy.typing as npt
-
 from depal.errors import Problem, did_you_mean
 from depal.geometry import Matrix3, Pose, Vector3
+from depal.perception.calibration.matrices import (
+    FARTHEST,
+    lens_of_rows,
+    numbers,
+    pose_of_rows,
+    rows_of,
+    shown,
+)
 
 NAME = "frame.json"
 """Of the file in a frame's folder."""
 
 KEYS = ("K", "depth_K", "depth_unit", "cell_from_camera", "sizes", "taken")
 """What the file may hold; other keys are left alone, unless they are nearly one of these."""
-
-FARTHEST = 20.0
-"""No camera and no box of a cell is farther or larger [m]."""
-
-_SQUARE = 1e-3
-"""A rotation's rows, as people round them, are so far from unit length and right angles."""
-
-_EXACT = 1e-9
-"""A rotation that is nearer to a true one is left as it is."""
 
 _MATRIX = "three rows of three numbers: [[fx, 0, cx], [0, fy, cy], [0, 0, 1]], in pixels"
 _POSE = "four rows of four numbers, the last 0 0 0 1, or null"
@@ -73,8 +69,8 @@ def description_of(text: str) -> Description:
     found.cell_from_camera = _pose(fields, wrong)
     found.sizes = _sizes(fields, wrong)
     taken = fields.get("taken", 0.0)
-    if _numbers(taken, ()) is None:
-        wrong.append(Problem(f"{NAME}, taken", f"{_shown(taken)} is no time", "seconds"))
+    if numbers(taken, ()) is None:
+        wrong.append(Problem(f"{NAME}, taken", f"{shown(taken)} is no time", "seconds"))
     else:
         found.taken = float(taken)
     return found
@@ -93,33 +89,6 @@ def text_of(found: Description) -> str:
         "taken": found.taken,
     }
     return json.dumps(fields, indent=1) + "\n"
-
-
-def rows_of(pose: Pose) -> list[list[float]]:
-    """A pose as a matrix: four rows of four numbers."""
-    rows = zip(pose.rotation, pose.translation, strict=True)
-    return [*([*row, shift] for row, shift in rows), [0.0, 0.0, 0.0, 1.0]]
-
-
-def pose_of_rows(value: object) -> Pose | str:
-    """The pose of a matrix, or what is wrong with it; rounded rotations are made square."""
-    matrix = _numbers(value, (4, 4))
-    if matrix is None:
-        return f"{_shown(value)} is no matrix of 4 x 4 numbers"
-    if np.abs(matrix[3] - (0.0, 0.0, 0.0, 1.0)).max() > _EXACT:
-        return f"is no rigid pose: its last row is {_row(matrix[3])}"
-    turn, shift = matrix[:3, :3], matrix[:3, 3]
-    apart = float(np.abs(turn @ turn.T - np.eye(3)).max())
-    if apart > _SQUARE:
-        return f"is no rigid pose: its rows are {apart:.2g} from unit length and right angles"
-    if np.linalg.det(turn) < 0.0:
-        return "is no rigid pose: it mirrors"
-    if np.abs(shift).max() > FARTHEST:
-        return f"is {float(np.abs(shift).max()):g} m away"
-    if apart > _EXACT:
-        left, _, right = np.linalg.svd(turn)
-        turn = left @ right
-    return Pose.from_arrays(shift, turn)
 
 
 def implausible(k: Matrix3, size: tuple[int, int]) -> str:
@@ -151,24 +120,19 @@ def _matrix(
         if needed:
             wrong.append(Problem(where, "is missing", _MATRIX))
         return None
-    k = _numbers(value, (3, 3))
-    if k is None:
-        wrong.append(Problem(where, f"{_shown(value)} is no matrix of 3 x 3 numbers", _MATRIX))
+    k = lens_of_rows(value)
+    if isinstance(k, str):
+        wrong.append(Problem(where, k, _MATRIX))
         return None
-    whole = np.abs(k - k * ((1, 0, 1), (0, 1, 1), (0, 0, 1))).max() <= _EXACT and k[2, 2] == 1.0
-    if not whole or k[0, 0] <= 0.0 or k[1, 1] <= 0.0:
-        wrong.append(Problem(where, "is no matrix of a pinhole camera without skew", _MATRIX))
-        return None
-    (a, b, c), (d, e, f), (g, h, i) = k.tolist()
-    return ((a, b, c), (d, e, f), (g, h, i))
+    return k
 
 
 def _unit(fields: dict[str, object], wrong: list[Problem]) -> float | None:
     where, value = f"{NAME}, depth_unit", fields.get("depth_unit")
     expected = "metres per count of depth.png, such as 0.001"
-    unit = _numbers(value, ())
+    unit = numbers(value, ())
     if unit is None:
-        what = "is missing" if value is None else f"{_shown(value)} is no number"
+        what = "is missing" if value is None else f"{shown(value)} is no number"
         wrong.append(Problem(where, what, expected))
         return None
     if not 1e-6 <= float(unit) <= 0.1:  # noqa: PLR2004
@@ -196,42 +160,13 @@ def _sizes(fields: dict[str, object], wrong: list[Problem]) -> tuple[Vector3, ..
     if value is None:
         return None
     if not isinstance(value, list):
-        wrong.append(Problem(where, f"{_shown(value)} is no list", _SIZES))
+        wrong.append(Problem(where, f"{shown(value)} is no list", _SIZES))
         return None
     kept = list[Vector3]()
     for index, size in enumerate(value):
-        edges = _numbers(size, (3,))
+        edges = numbers(size, (3,))
         if edges is None or edges.min() <= 0.0 or edges.max() > FARTHEST:
-            wrong.append(Problem(f"{where}[{index}]", f"{_shown(size)} is no size", _SIZES))
+            wrong.append(Problem(f"{where}[{index}]", f"{shown(size)} is no size", _SIZES))
         else:
             kept.append((float(edges[0]), float(edges[1]), float(edges[2])))
     return tuple(kept)
-
-
-def _numbers(value: object, shape: tuple[int, ...]) -> npt.NDArray[np.float64] | None:
-    """Finite numbers of a shape, or None."""
-    leaves, rest = [value], shape
-    while rest:
-        if not all(isinstance(leaf, list) and len(leaf) == rest[0] for leaf in leaves):
-            return None
-        leaves = [inner for leaf in leaves if isinstance(leaf, list) for inner in leaf]
-        rest = rest[1:]
-    floats = [
-        float(leaf)
-        for leaf in leaves
-        if isinstance(leaf, int | float) and not isinstance(leaf, bool) and abs(leaf) < 1e300  # noqa: PLR2004
-    ]
-    if len(floats) < len(leaves):
-        return None
-    return np.array(floats).reshape(shape)
-
-
-def _shown(value: object) -> str:
-    if isinstance(value, list | dict):
-        return "this"
-    text = json.dumps(value)
-    return text if len(text) <= 40 else f"{text[:40]}..."  # noqa: PLR2004
-
-
-def _row(values: npt.NDArray[np.float64]) -> str:
-    return " ".join(f"{value:g}" for value in values)
