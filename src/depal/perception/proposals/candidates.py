@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from depal.perception.faces import Rectangle
 from depal.perception.proposals.kernels import FEATURES
-from depal.perception.proposals.lines import Rectangles, between_lines
+from depal.perception.proposals.lines import Rectangles, between_lines, measured, running
 from depal.perception.seams import Seams
 
 Floats = npt.NDArray[np.float64]
@@ -71,6 +71,40 @@ def by_lines(seams: Sequence[Seams], sizes: Sequence[tuple[float, float]]) -> Ca
     found = Candidates.joined([_in_raster(between_lines(each, sizes)) for each in seams])
     good = (found.measured[:, 10] >= FEWEST) & np.isfinite(found.measured[:, 16])
     return found[np.flatnonzero(good)]
+
+
+def placed(seams: Sequence[Seams], rectangles: Sequence[Rectangle]) -> Candidates:
+    """Rectangles that something else suggests, measured like the others.
+
+    Args:
+        seams: the evidence of edges in each direction.
+        rectangles: in the raster's plane.
+
+    Returns:
+        The same rectangles in the same order, but for those that leave the raster.
+    """
+    parts = []
+    for rectangle in rectangles:
+        turned = min(seams, key=lambda each: abs(each.turn - rectangle.turn))
+        way = turned.raster_from_turned
+        at = np.array([rectangle.u, rectangle.v]) / turned.step
+        middle = (at - way[:, 2]) @ way[:, :2]
+        half = np.array([rectangle.width, rectangle.height]) / turned.step / 2
+        sides = np.round(np.concatenate((middle - half, middle + half))).astype(np.int64)[None]
+        height, width = turned.level.shape
+        sides = np.clip(sides, 0, [width - 1, height - 1, width - 1, height - 1])
+        found = measured(turned, sides, *running(turned))
+        depth = found[0, 16] if np.isfinite(found[0, 16]) else rectangle.depth
+        values = [
+            rectangle.u,
+            rectangle.v,
+            rectangle.width,
+            rectangle.height,
+            rectangle.turn,
+            depth,
+        ]
+        parts.append(Candidates(np.array([values]), found))
+    return Candidates.joined(parts)
 
 
 def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp]:

@@ -95,7 +95,7 @@ def _different(pixels: Ints) -> Ints:
     """Each rectangle once."""
     wide = 1 << 14
     key = pixels @ np.array([wide**3, wide**2, wide, 1])
-    return pixels[np.unique(key, return_index=True)[1]]
+    return np.asarray(pixels[np.unique(key, return_index=True)[1]])
 
 
 def _sums(values: Narrow) -> Floats:

@@ -91,19 +91,21 @@ def _raster_from_turned(
 
 
 def _turned(
-    image: npt.NDArray[np.generic],
+    image: npt.NDArray[np.float32] | npt.NDArray[np.uint8],
     back: npt.NDArray[np.float64],
     size: tuple[int, int],
     how: int = cv2.INTER_LINEAR,
-) -> npt.NDArray[np.generic]:
-    return cv2.warpAffine(image, back, size, flags=how | cv2.WARP_INVERSE_MAP)
+) -> Narrow:
+    return np.asarray(
+        cv2.warpAffine(image, back, size, flags=how | cv2.WARP_INVERSE_MAP), dtype=np.float32
+    )
 
 
 def _channels(raster: Raster) -> Narrow:
     """(h, w, 3) log brightness and two log ratios of colours, unknown places as their nearest."""
     logs = np.log(raster.colour.astype(np.float32) + 6.0)
     coloured = raster.colour.any(axis=2)
-    unknown = (~coloured).astype(np.uint8)
+    unknown = np.asarray(~coloured, dtype=np.uint8)
     if coloured.any():
         _, labels = cv2.distanceTransformWithLabels(
             unknown, cv2.DIST_L2, 3, labelType=cv2.DIST_LABEL_PIXEL

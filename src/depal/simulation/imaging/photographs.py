@@ -32,7 +32,7 @@ class Studio:
     """How much photographs of one face differ.
 
     Attributes:
-        gain: brightness lies within so large a share of the true one.
+        gain: pictures are darker than the drawing by up to this share, never much brighter.
         balance: each channel's gain, the same way.
         gradient: light falls off by up to this share from edge to edge.
         shift: the print sits up to so far from where the drawing has it [m].
@@ -43,7 +43,7 @@ class Studio:
         labelled: share of the faces that were photographed with their label on.
     """
 
-    gain: float = 0.3
+    gain: float = 0.4
     balance: float = 0.1
     gradient: float = 0.2
     shift: float = 0.003
@@ -126,7 +126,7 @@ def taken(face: Picture, random: np.random.Generator, studio: Studio) -> Picture
     warp = np.column_stack((np.eye(2) * scale, shift + middle * (1.0 - scale)))
     moved = cv2.warpAffine(face, warp, (width, height), borderMode=cv2.BORDER_REPLICATE)
     ink = 1.0 + random.uniform(-studio.ink, studio.ink, 3)
-    light = 1.0 + random.uniform(-studio.gain, studio.gain)
+    light = 1.0 - random.uniform(0.0, studio.gain)
     balance = 1.0 + random.uniform(-studio.balance, studio.balance, 3)
     bright = moved.mean(axis=(0, 1))
     values = (bright + (moved - bright) * ink) * balance * light * _falling(face, random, studio)
