@@ -5,10 +5,11 @@ from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.contacts import Collision
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.losses import Cause, Loss
-from depal.simulation.people import SimulatedPerson, index_of, name_of
+from depal.simulation.people import SimulatedPerson
 from depal.simulation.referee import Referee, Summary, Truth
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.witness import Witness, name_of
 from depal.simulation.world import Snapshot, World
 
 __all__ = [
@@ -25,10 +26,10 @@ __all__ = [
     "Summary",
     "Truth",
     "TruthSight",
+    "Witness",
     "World",
     "build",
     "cases_of",
-    "index_of",
     "name_of",
     "stacked",
 ]

@@ -16,10 +16,11 @@ from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.imaging.severity import Severity
-from depal.simulation.people import Policy, SimulatedPerson, first_choice
+from depal.simulation.people import Policy, SimulatedPerson
 from depal.simulation.referee import Referee
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.witness import Witness
 from depal.simulation.world import World
 
 
@@ -56,6 +57,11 @@ class SimulatedCell:
         """The first camera of the layout."""
         return self.cameras[0]
 
+    @property
+    def witness(self) -> Witness:
+        """Who has seen which box a name means."""
+        return self.person.witness
+
 
 def build(
     layout: CellLayout,
@@ -66,7 +72,7 @@ def build(
     start: float = 0.0,
     sight: SightSettings | None = None,
     severity: Severity = Severity.NORMAL,
-    policy: Policy = first_choice,
+    policy: Policy | None = None,
 ) -> SimulatedCell:
     """Builds a cell with a delivery on its pallet.
 
@@ -78,7 +84,7 @@ def build(
         start: the time at the beginning [s].
         sight: how good the perception from the truth is.
         severity: how far cameras and prints are from ideal.
-        policy: how the worker answers.
+        policy: how the worker answers; None for what is so.
 
     Returns:
         The cell with its stack settled and the arm parked.

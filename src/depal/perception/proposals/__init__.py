@@ -1,0 +1,1 @@
+"""Rectangles that may be faces, and what is measured of each."""

@@ -1,0 +1,6 @@
+"""How likely a rectangle is a face of one box."""
+
+from depal.perception.scoring.features import NAMES, described
+from depal.perception.scoring.model import FaceScore, shipped_score
+
+__all__ = ["NAMES", "FaceScore", "described", "shipped_score"]
