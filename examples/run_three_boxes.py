@@ -3,7 +3,8 @@
 python examples/run_three_boxes.py
 """
 
-from depal.app.run.job import Job, run_job
+from depal.app.run.job import run_job
+from depal.app.run.values import Job
 from depal.cell.files import find_cell
 from depal.cell.workplace import Settings
 from depal.domain import (

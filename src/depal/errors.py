@@ -6,6 +6,7 @@
     │   ├── RequestError    a request, or a file of them
     │   ├── PileError       a set of perceived boxes that cannot stand in one world
     │   ├── TaskError       a task file, or a call of a task, that cannot be used
+    │   ├── BookError       a picture book that cannot be used
     │   ├── SettingError    a number or a name outside its range
     │   ├── CellError       a cell file, or a cell that cannot do its work
     │   └── FrameError      a recorded frame, or a calibration, that cannot be used
@@ -21,6 +22,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 __all__ = [
+    "BookError",
     "CellError",
     "DeliveryError",
     "DepalError",
@@ -113,6 +115,10 @@ class PileError(InputError):
 
 class TaskError(InputError):
     """A task file, or a call of a task, that cannot be used."""
+
+
+class BookError(InputError):
+    """A picture book that cannot be used."""
 
 
 class SettingError(InputError):

@@ -8,8 +8,9 @@ import pytest
 from tiny_runs import THREE, gtin, run
 
 from depal.app.replay import replay_report
-from depal.app.run.job import Options, run_delivery
+from depal.app.run.job import run_delivery
 from depal.app.run.summary import run_report
+from depal.app.run.values import Options
 from depal.cell.departures import Fate
 from depal.domain import Request
 from depal.simulation.truth_sight import SightSettings

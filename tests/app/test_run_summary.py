@@ -71,6 +71,7 @@ def outcome(
     return Outcome(
         delivery="tiny",
         boxes=len(departures) + len(left),
+        stack={d.box: int(d.box[1:]) - 1 for d in departures},
         departures=departures,
         left=left,
         wishes=wishes,
@@ -206,6 +207,10 @@ class Truth:
         """Where a box is."""
         return self._where[index]
 
+    def product(self, index: int) -> Gtin:
+        """What a box is."""
+        return Gtin(f"g{index + 1}")
+
 
 @pytest.mark.parametrize(
     ("fate", "agree"),
@@ -222,7 +227,7 @@ def test_the_referee_confirms_what_became_of_each_box(fate: Fate | None, agree: 
     gone = [departure(1, fate)] if fate is not None else []
     left = [] if fate is not None else [Left(BoxId("b1"), "out of reach")]
     for where in ("trolley_1/level_1", "trolley_1/level_2", FLOOR, HAND, PALLET, REMOVED):
-        found = disagreements(Truth({0: where}), gone, left, 1)  # type: ignore[arg-type]
+        found = disagreements(Truth({0: where}), gone, left, {BoxId("b1"): 0})  # type: ignore[arg-type]
         assert bool(found) is (where not in agree)
         assert all(line.startswith("box b1: the books say ") for line in found)
         assert all(line.endswith(f", it is in {where}") for line in found)
@@ -231,5 +236,5 @@ def test_the_referee_confirms_what_became_of_each_box(fate: Fate | None, agree: 
 def test_a_box_that_the_stack_does_not_have_is_nowhere() -> None:
     """A phantom of the perception."""
     phantom = departure(7, Fate.STORED)
-    found = disagreements(Truth({}), [phantom], [], 2)  # type: ignore[arg-type]
+    found = disagreements(Truth({}), [phantom], [], {})  # type: ignore[arg-type]
     assert found == ("box b7: the books say trolley_1/level_1 or removed, it is in nowhere",)

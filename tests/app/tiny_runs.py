@@ -2,8 +2,9 @@
 
 from pathlib import Path
 
-from depal.app.run.job import Job, run_job
+from depal.app.run.job import run_job
 from depal.app.run.summary import Outcome
+from depal.app.run.values import Job
 from depal.cell.files import shipped_cell
 from depal.cell.workplace import Settings
 from depal.domain import (

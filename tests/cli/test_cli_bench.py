@@ -12,8 +12,9 @@ import pytest
 from depal.app import run_figures
 from depal.app.doctor import examine
 from depal.app.reports import bench_report
-from depal.app.run.job import Options, prepared, run_job
+from depal.app.run.job import prepared, run_job
 from depal.app.run.summary import Outcome
+from depal.app.run.values import Options
 from depal.cell.departures import Departure, Fate
 from depal.domain import Approach, BoxId, PlaceId
 from depal.simulation.referee import Summary

@@ -8,7 +8,7 @@ import pytest
 
 import depal.app.run.job
 from depal.app.reports.report import Report
-from depal.app.run.job import Options
+from depal.app.run.values import Options
 
 Run = Callable[..., tuple[int, str, str]]
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal import __version__
-from depal.app.run.job import Job
+from depal.app.run.values import Job
 from depal.app.throughput import Asked, Failure, Row, runs, summary_of, throughput
 from depal.app.throughput.kept import Kept, key_of
 from depal.errors import SettingError

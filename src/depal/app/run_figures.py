@@ -10,8 +10,9 @@ from statistics import median
 import numpy as np
 
 from depal.app.run.case2 import NAME as CASE2
-from depal.app.run.job import NONE, Job, Options, prepared, run_job
+from depal.app.run.job import NONE, prepared, run_job
 from depal.app.run.summary import Outcome
+from depal.app.run.values import Job, Options
 from depal.domain import BoxId
 from depal.logistics.store import random_requests
 from depal.studies import paper

@@ -1,24 +1,22 @@
 """What the cell believes stands on the pallet: all looks together, and what one may have missed."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from depal.domain import BoxId, Gtin, Perceived, Recognition
+from depal.domain import BoxId, Detection, Gtin, Perceived, Recognition
 from depal.geometry import OrientedBox, Pose
+from depal.perception.faces import SeenBox
+from depal.perception.memory import Memory, Remembered
 from depal.ports import View
 
 MISSED = 20
 """So many looks in a row may miss a box, behind the arm say, before it is believed to be gone."""
 
-
-MOVED = 0.015
-"""A box that a look shows this far from where it was has moved; nearer is noise [m]."""
-
-LOOKS = 8
-"""So many looks at a box count together at the most."""
+EQUAL = 0.003
+"""Error of a box whose sight tells none [m, rad]."""
 
 LEVEL = 0.010
 """A box whose bottom is this near to what could carry it stands on it [m]."""
@@ -52,9 +50,9 @@ class Deck:
 class Pile:
     """The boxes on the pallet, kept from look to look.
 
-    Where a box has not moved, looks are averaged. A box that a look does not show may be hidden by
-    the arm or by others; it is remembered where it was. A box that was taken does not come back by
-    itself.
+    A sight that has no memory of its own gets one here: where a box has not moved, looks are
+    averaged; a box that a look does not show is remembered where it was. A box that was taken does
+    not come back by itself.
     """
 
     def __init__(self, deck: Deck | None = None) -> None:
@@ -64,38 +62,71 @@ class Pile:
             deck: what the boxes stand on, where it is known.
         """
         self._deck = deck
+        self._memory = Memory(patience=MISSED)
         self._boxes: dict[BoxId, Perceived] = {}
-        self._looks: dict[BoxId, int] = {}
-        self._missed: dict[BoxId, int] = {}
-        self._taken: set[BoxId] = set()
+        self._taken: dict[BoxId, float] = {}
+        self._left: dict[BoxId, Gtin | None] = {}
         self._read: dict[BoxId, Gtin] = {}
+        self.hidden: frozenset[BoxId] = frozenset()
+        self.unsized: frozenset[BoxId] = frozenset()
+        self.moves = 0
 
     def see(self, view: View) -> None:
         """Takes over what a look has found."""
         found = {box.id: box for box in view.boxes if box.id not in self._taken}
-        for name in list(self._boxes):
-            if name in found:
-                self._missed[name] = 0
-                continue
-            self._missed[name] = self._missed.get(name, 0) + 1
-            if self._missed[name] >= MISSED:
-                del self._boxes[name]
-        for name, box in found.items():
-            self._boxes[name] = self._merged(name, box)
+        if view.remembered:
+            self.moves += bool(view.moved) or set(found) != set(self._boxes)
+            self._boxes = found
+            self.hidden, self.unsized = view.hidden, view.unsized
+            return
+        named = [(box.id, _seen(box)) for box in found.values()]
+        self._memory = self._memory.told(named, view.taken)
+        self._boxes = {
+            box.name: _perceived(box, found.get(box.name, self._boxes.get(box.name)))
+            for box in self._memory
+        }
 
-    def take(self, box: BoxId) -> None:
-        """A box was lifted off."""
-        self._taken.add(box)
+    def take(self, box: BoxId, at: float = 0.0) -> None:
+        """A box was lifted off [s]."""
+        if box not in self._taken:
+            there = self.get(box)
+            self._left[box] = there.gtin if isinstance(there, Recognition) else None
+        self.forget(box, at)
+
+    def forget(self, box: BoxId, at: float = 0.0) -> None:
+        """A box is not there, and never was: somebody has looked [s]."""
+        self._taken.setdefault(box, at)
         self._boxes.pop(box, None)
+        self._memory = self._memory.without(box, at)
 
     def put_back(self, box: Perceived) -> None:
         """A box stands on the pallet again; the next look says where."""
-        self._taken.discard(box.id)
+        self._taken.pop(box.id, None)
+        self._left.pop(box.id, None)
         self._boxes[box.id] = box
+        self._memory = self._memory.back(box.id, _seen(box), 0.0)
 
     def identify(self, box: BoxId, gtin: Gtin) -> None:
         """A box that was only detected has been read: from now on it is recognised."""
         self._read[box] = gtin
+        if box in self._left:
+            self._left[box] = gtin
+
+    def doubt(self, box: BoxId) -> None:
+        """What a box was taken to be is not so."""
+        self._read.pop(box, None)
+        if box in self._left:
+            self._left[box] = None
+
+    @property
+    def left_as(self) -> tuple[Gtin | None, ...]:
+        """The products of the boxes that were lifted off; None where nobody knows."""
+        return tuple(self._left.values())
+
+    @property
+    def taken(self) -> Mapping[BoxId, float]:
+        """The boxes that were lifted off, and when [s]."""
+        return self._taken
 
     @property
     def boxes(self) -> tuple[Perceived, ...]:
@@ -111,20 +142,6 @@ class Pile:
         """How many boxes stand there."""
         return len(self._boxes)
 
-    def _merged(self, name: BoxId, box: Perceived) -> Perceived:
-        """A box as all looks together show it."""
-        before = self._boxes.get(name)
-        if before is None or math.dist(before.shape.centre, box.shape.centre) > MOVED:
-            self._looks[name] = 1
-            return box
-        count = self._looks.get(name, 1)
-        self._looks[name] = min(count + 1, LOOKS)
-        old, new = np.array(before.shape.centre), np.array(box.shape.centre)
-        centre = (count * old + new) / (count + 1)
-        turn = _yaw(before.shape) + _turned(_yaw(box.shape) - _yaw(before.shape)) / (count + 1)
-        pose = Pose.from_yaw((float(centre[0]), float(centre[1]), float(centre[2])), turn)
-        return replace(box, shape=OrientedBox(pose, box.shape.size))
-
     def _known(self, box: Perceived) -> Perceived:
         gtin = self._read.get(box.id)
         if gtin is None:
@@ -132,6 +149,19 @@ class Pile:
         if isinstance(box, Recognition):
             return replace(box, gtin=gtin)
         return Recognition(box.id, box.shape, gtin)
+
+
+def _seen(box: Perceived) -> SeenBox:
+    """A box of a sight that tells no errors: all looks are equally good."""
+    gtin = box.gtin if isinstance(box, Recognition) else None
+    return SeenBox(box.shape, 1.0, np.eye(6) * EQUAL**2, gtin=gtin)
+
+
+def _perceived(box: Remembered, last: Perceived | None) -> Perceived:
+    """A remembered box; its product is what the last look has told."""
+    if isinstance(last, Recognition):
+        return replace(last, shape=box.seen.shape)
+    return Detection(box.name, box.seen.shape)
 
 
 def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
@@ -188,7 +218,3 @@ def _bottom(box: OrientedBox) -> float:
 
 def _yaw(box: OrientedBox) -> float:
     return math.atan2(box.pose.rotation[1][0], box.pose.rotation[0][0])
-
-
-def _turned(angle: float) -> float:
-    return math.atan2(math.sin(angle), math.cos(angle))

@@ -190,7 +190,7 @@ class Workplace:
     def lifted(self, box: BoxId, grasp: Grasp, size: Vector3, mass: float) -> None:
         """The arm has lifted a box off the pallet."""
         self.held = Held(box, grasp, size, mass)
-        self.pile.take(box)
+        self.pile.take(box, self.now)
         self.departures.leaves(box, self.now)
         product = self.product_of(box)
         self.wishes.left(box, product.gtin if product else None, self.now)
@@ -201,7 +201,7 @@ class Workplace:
         product = self.product_of(box)
         gtin = product.gtin if product else None
         if not self.departures.has_left(box):
-            self.pile.take(box)
+            self.pile.take(box, self.now)
             self.wishes.left(box, gtin, self.now)
         approach = held.grasp.approach if held else None
         self.departures.ends(Departure(box, gtin, approach, place, fate, reason, self.now))

@@ -36,7 +36,8 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
 ) -> None:
     """Empty a pallet in the simulated cell: physics, motions, tasks and choices."""
     from depal.app.files import checked_target, write_json  # noqa: PLC0415 - fast help
-    from depal.app.run.job import Options, run_delivery  # noqa: PLC0415
+    from depal.app.run.job import run_delivery  # noqa: PLC0415
+    from depal.app.run.values import Options  # noqa: PLC0415
 
     checked_target(json_file, "--json")
     options = Options(

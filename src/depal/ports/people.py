@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from depal.domain import BoxId, Gtin, PlaceId
+from depal.geometry import Vector3
 
 TAKEN = "taken"
 """The answer that promises: the person has taken the box that it is about out of the cell."""
@@ -18,12 +19,16 @@ class Question:
         text: what is asked, as a sentence.
         choices: the answers to choose from; the last is the careful one.
         about: the box, the trolley or the place that it is about.
+        at: where the middle of that box is, for a picture of it, in the cell frame [m].
+        gtin: the product of that box, where it is known.
     """
 
     id: str
     text: str
     choices: tuple[str, ...]
     about: str
+    at: Vector3 | None = None
+    gtin: Gtin | None = None
 
 
 class Person(Protocol):

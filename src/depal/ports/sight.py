@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from depal.domain import Perceived
+from depal.domain import BoxId, Perceived
 
 
 @dataclass(frozen=True, slots=True)
@@ -14,10 +14,19 @@ class View:
         taken: when the picture was taken [s].
         boxes: B_rec united with B_det (section II-C), in the cell frame; a box keeps its name
             from look to look.
+        remembered: whether the boxes are all that is believed to stand there after this look and
+            those before; else they are what this look alone has found.
+        hidden: of what is believed, what this look did not show.
+        unsized: boxes of which an edge could not be measured and is a guess.
+        moved: boxes that this look shows elsewhere than those before.
     """
 
     taken: float
     boxes: tuple[Perceived, ...]
+    remembered: bool = False
+    hidden: frozenset[BoxId] = frozenset()
+    unsized: frozenset[BoxId] = frozenset()
+    moved: frozenset[BoxId] = frozenset()
 
 
 class Sight(Protocol):

@@ -3,11 +3,13 @@
 from depal.simulation.cases import Case, cases_of
 from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.contacts import Collision
+from depal.simulation.imaging.severity import Severity
 from depal.simulation.losses import Cause, Loss
-from depal.simulation.people import SimulatedPerson, index_of, name_of
+from depal.simulation.people import SimulatedPerson
 from depal.simulation.referee import Referee, Summary, Truth
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.witness import Witness, name_of
 from depal.simulation.world import Snapshot, World
 
 __all__ = [
@@ -16,6 +18,7 @@ __all__ = [
     "Collision",
     "Loss",
     "Referee",
+    "Severity",
     "SightSettings",
     "SimulatedCell",
     "SimulatedPerson",
@@ -23,10 +26,10 @@ __all__ = [
     "Summary",
     "Truth",
     "TruthSight",
+    "Witness",
     "World",
     "build",
     "cases_of",
-    "index_of",
     "name_of",
     "stacked",
 ]

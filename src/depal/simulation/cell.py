@@ -15,10 +15,12 @@ from depal.simulation.devices import (
 from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
-from depal.simulation.people import Policy, SimulatedPerson, first_choice
+from depal.simulation.imaging.severity import Severity
+from depal.simulation.people import Policy, SimulatedPerson
 from depal.simulation.referee import Referee
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
+from depal.simulation.witness import Witness
 from depal.simulation.world import World
 
 
@@ -36,7 +38,7 @@ class SimulatedCell:
         sight: behind `Sight`, from the truth.
         referee: for reports and tests only.
         reader: behind `BarcodeReader`.
-        camera: behind `Camera`, the first of the layout's.
+        cameras: each behind `Camera`, in the order of the layout.
     """
 
     world: World
@@ -48,7 +50,17 @@ class SimulatedCell:
     sight: TruthSight
     referee: Referee
     reader: BarcodeReader
-    camera: Camera
+    cameras: tuple[SimulatedCamera, ...]
+
+    @property
+    def camera(self) -> Camera:
+        """The first camera of the layout."""
+        return self.cameras[0]
+
+    @property
+    def witness(self) -> Witness:
+        """Who has seen which box a name means."""
+        return self.person.witness
 
 
 def build(
@@ -59,7 +71,8 @@ def build(
     clock: Clock | None = None,
     start: float = 0.0,
     sight: SightSettings | None = None,
-    policy: Policy = first_choice,
+    severity: Severity = Severity.NORMAL,
+    policy: Policy | None = None,
 ) -> SimulatedCell:
     """Builds a cell with a delivery on its pallet.
 
@@ -70,7 +83,8 @@ def build(
         clock: the loop's time where nothing else is said.
         start: the time at the beginning [s].
         sight: how good the perception from the truth is.
-        policy: how the worker answers.
+        severity: how far cameras and prints are from ideal.
+        policy: how the worker answers; None for what is so.
 
     Returns:
         The cell with its stack settled and the arm parked.
@@ -92,5 +106,5 @@ def build(
         TruthSight(world, time, sight),
         Referee(world),
         SimulatedReader(stage, time),
-        SimulatedCamera(stage, time),
+        tuple(SimulatedCamera(stage, time, mount, severity) for mount in layout.cameras),
     )

@@ -9,31 +9,18 @@ from depal.domain import BoxId, StorageKind
 from depal.executive.clock import Clock
 from depal.geometry import Pose
 from depal.ports import TAKEN, Question
-from depal.simulation.referee import ELSEWHERE, FLOOR, Referee
+from depal.simulation.referee import ELSEWHERE, FLOOR, PALLET, Referee
+from depal.simulation.witness import Witness
 from depal.simulation.world import World
 
 Policy = Callable[[Question], str]
 """Which choice the worker picks."""
 
+PRODUCT = "product/"
+"""How questions after the product of a box begin."""
+
 PARKING = (40.0, 0.0)
 """Where boxes are put that people took away: far outside the cell [m]."""
-
-
-def first_choice(question: Question) -> str:
-    """The worker does what is asked."""
-    return question.choices[0]
-
-
-def name_of(index: int) -> BoxId:
-    """What a box of the stack is called in the simulated cell: b1 is the first."""
-    return BoxId(f"b{index + 1}")
-
-
-def index_of(name: str, boxes: int) -> int | None:
-    """The index of a box in a stack of so many by its name; None where there is no such box."""
-    number = name.removeprefix("b")
-    known = name.startswith("b") and number.isdecimal() and 0 < int(number) <= boxes
-    return int(number) - 1 if known else None
 
 
 class SimulatedPerson:
@@ -41,14 +28,15 @@ class SimulatedPerson:
 
     The answer to a question about a trolley that is the first of its choices means that the
     trolley is exchanged; `TAKEN` means that the box is taken away, wherever it is. A box on the
-    floor that a question is about is picked up in any case.
+    floor that a question is about is picked up in any case. Who is asked for a product reads the
+    box; who is asked for a box that is not there says so.
     """
 
     def __init__(
         self,
         world: World,
         clock: Clock,
-        policy: Policy = first_choice,
+        policy: Policy | None = None,
         mean_delay: float = 20.0,
         exchange_time: float = 30.0,
     ) -> None:
@@ -57,28 +45,56 @@ class SimulatedPerson:
         Args:
             world: in which things are moved.
             clock: the loop's time.
-            policy: picks the answers.
+            policy: picks the answers; None for what is so.
             mean_delay: until the worker comes [s]; half of it to one and a half times it.
             exchange_time: a bay is empty for this long [s].
         """
         self._world, self._clock, self._policy = world, clock, policy
         self._mean, self._exchange_time = mean_delay, exchange_time
         self._referee = Referee(world)
+        self.witness = Witness(world)
         self._random = np.random.default_rng([world.seed, 2])
         self._trolleys = 0
         self.asked: list[tuple[float, Question, str]] = []
 
     async def ask(self, question: Question) -> str:
         """Asks and waits for as long as it takes; returns one of the choices."""
-        answer = self._policy(question)
+        self._world.advance(self._clock.now())
+        answer = self._policy(question) if self._policy is not None else self._truly(question)
         self.asked.append((self._clock.now(), question, answer))
         await asyncio.sleep(self._mean * float(self._random.uniform(0.5, 1.5)))
         self._world.advance(self._clock.now())
         if self._is_trolley(question.about) and answer == question.choices[0]:
             await self._exchange(question.about)
         else:
-            self._pick_up(question.about, anywhere=answer == TAKEN)
+            self._pick_up(question, anywhere=answer == TAKEN)
         return answer
+
+    def _truly(self, question: Question) -> str:
+        """What is asked, where it can be done; what is read, where that is a choice."""
+        first, last = question.choices[0], question.choices[-1]
+        if question.id.startswith(PRODUCT):
+            box = self._meant(question)
+            read = None if box is None else str(self._world.cases[box].gtin)
+            return read if read in question.choices else last
+        if first == TAKEN and self._meant(question) is None:
+            return last
+        return first
+
+    def _meant(self, question: Question) -> int | None:
+        """The box that a question is about, where there is one."""
+        found = self.witness.find(BoxId(question.about), question.at)
+        if found is not None or question.gtin is None:
+            return found
+        known = set(self.witness.indices.values())
+        on_pallet = [
+            case.index
+            for case in self._world.cases
+            if case.gtin == question.gtin
+            and case.index not in known
+            and self._referee.where(case.index) == PALLET
+        ]
+        return on_pallet[0] if on_pallet else None
 
     def _is_trolley(self, name: str) -> bool:
         storages = self._world.layout.storages
@@ -96,11 +112,12 @@ class SimulatedPerson:
         self._trolleys += 1
         self._world.show_storage(bay, trolley=f"{bay}#{self._trolleys + 1}")
 
-    def _pick_up(self, name: str, *, anywhere: bool) -> None:
-        index = index_of(name, len(self._world.cases))
+    def _pick_up(self, question: Question, *, anywhere: bool) -> None:
+        index = self._meant(question)
         if index is None or index in self._world.removed:
             return
         if anywhere or self._referee.where(index) in {FLOOR, ELSEWHERE}:
+            self.witness.means(BoxId(question.about), index)
             self._take_away(index)
 
     def _take_away(self, index: int) -> None:

@@ -86,6 +86,10 @@ class Referee:
         world = self._world
         return Truth(index, world.cases[index].gtin, world.box(index), self.where(index))
 
+    def product(self, index: int) -> Gtin:
+        """What a box is."""
+        return self._world.cases[index].gtin
+
     def where(self, index: int) -> str:
         """Where a box is: a place's id, or "pallet", "hand", "floor", "removed", "elsewhere"."""
         world = self._world

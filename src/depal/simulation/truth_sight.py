@@ -15,8 +15,8 @@ from depal.executive.clock import Clock
 from depal.geometry import Blockers, OrientedBox, Pose
 from depal.ports import View
 from depal.simulation.model import pallet_parts
-from depal.simulation.people import name_of
 from depal.simulation.referee import PALLET, Referee
+from depal.simulation.witness import name_of
 from depal.simulation.world import World
 
 Floats = npt.NDArray[np.float64]

@@ -3,6 +3,7 @@
 from depal.domain import (
     EURO_PALLET,
     PALLET_FRONT_X,
+    BoxId,
     Delivery,
     DeliveryLine,
     Gtin,
@@ -11,6 +12,7 @@ from depal.domain import (
     StackedCase,
     cell_from_pallet,
 )
+from depal.geometry import Vector3
 from depal.studies import paper
 from depal.studies.case2 import REQUESTED, Layout, boxes_of
 
@@ -44,6 +46,15 @@ def case2_delivery() -> Delivery:
 def case2_requests() -> tuple[Request, ...]:
     """b1 with its low priority, known from the start."""
     return (Request(priority=paper.CASE_2_PRIORITY, box=REQUESTED),)
+
+
+def case2_names() -> tuple[tuple[BoxId, Vector3], ...]:
+    """The paper's names of the boxes, by where they stand in the cell [m]."""
+    deck = cell_from_pallet(EURO_PALLET, PALLET_FRONT_X).translation[2]
+    return tuple(
+        (box.id, (box.shape.centre[0], box.shape.centre[1], box.shape.centre[2] + deck))
+        for box in boxes_of(LAYOUT)
+    )
 
 
 def _gtin(number: int) -> Gtin:

@@ -1,5 +1,7 @@
 """What a run is given, checked before anything moves."""
 
+from collections.abc import Sequence
+
 from depal.cell.checking.delivery import check_delivery_against_cell
 from depal.cell.checking.findings import CellFinding, Weight
 from depal.cell.files import find_cell
@@ -17,17 +19,25 @@ def cell_of(reference: str) -> CellLayout:
     return find_cell(reference)
 
 
+def one_of(option: str, name: str, known: Sequence[str]) -> str:
+    """A name out of those that there are.
+
+    Raises:
+        SettingError: there is none of that name.
+    """
+    if name not in known:
+        exists = did_you_mean(name, known)
+        raise SettingError(option, f"unknown {option.lstrip('-')} {name!r}", exists=exists)
+    return name
+
+
 def policy_of(name: str) -> Policy:
     """The policy of that name.
 
     Raises:
         SettingError: there is none.
     """
-    known = {policy.value: policy for policy in Policy}
-    if name not in known:
-        exists = did_you_mean(name, known)
-        raise SettingError("--policy", f"unknown policy {name!r}", exists=exists)
-    return known[name]
+    return Policy(one_of("--policy", name, [policy.value for policy in Policy]))
 
 
 def checked_speed(speed: float) -> float:

@@ -4,36 +4,42 @@ import asyncio
 import time
 from collections.abc import Callable, Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from pathlib import Path
 
 from depal.app.files import write_json
 from depal.app.progress import progress_bar
 from depal.app.reports.report import Report
+from depal.app.run.accounting import Onlooker, left_behind, meant
 from depal.app.run.case2 import NAME as CASE2
-from depal.app.run.case2 import case2_delivery, case2_requests
+from depal.app.run.case2 import case2_delivery, case2_names, case2_requests
+from depal.app.run.eyes import camera_sight
 from depal.app.run.film import Film
-from depal.app.run.inputs import cell_of, checked_speed, policy_of, refuse_what_cannot_work
+from depal.app.run.inputs import cell_of, checked_speed, one_of, policy_of, refuse_what_cannot_work
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
-from depal.app.run.summary import UNSEEN, Left, Outcome, disagreements, run_report
+from depal.app.run.summary import Outcome, disagreements, run_report
+from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
+from depal.cell.sight import CameraSight
 from depal.cell.stock import movements_in
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.timekeeping import WAITING, Timekeeper, timed
 from depal.cell.wishes import Wish
 from depal.cell.workplace import Ports, Settings, Workplace
-from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request, checked_share
-from depal.errors import MissingPartError, SettingError, did_you_mean
-from depal.executive.clock import LoopClock, run_simulated
+from depal.domain import Delivery, Gtin, Request, checked_share
+from depal.errors import MissingPartError
+from depal.executive.clock import Clock, LoopClock, run_simulated
 from depal.executive.schema import Repository
 from depal.logistics import read_delivery, read_requests
 from depal.logistics.store import LocalStore, RequestState, StockProjection, by_storage
+from depal.ports import Sight
 from depal.simulation.cell import SimulatedCell, build
+from depal.simulation.imaging.severity import Severity
 from depal.simulation.truth_sight import SightSettings
 
 DEFAULT = "dev-035"
@@ -41,61 +47,8 @@ DEFAULT = "dev-035"
 
 NONE = "none"
 
-PERCEPTIONS = ("truth",)
-
-
-@dataclass(frozen=True, slots=True)
-class Options:
-    """What `depal run` was asked for.
-
-    Attributes:
-        delivery: a reference, "case2", or "" for the one that is run by default.
-        cell: a cell file or the name of one that ships.
-        requests: a file of requests, "none", or "" for what the delivery brings.
-        w: the weight of Eq. (3).
-        policy: which boxes may be taken.
-        perception: where boxes come from.
-        seed: of every random number.
-        speed: share of the arm's full speed.
-        record: the folder to keep a record in.
-        cone: whether motions respect the suction's limits; only tests switch it off.
-    """
-
-    delivery: str = ""
-    cell: str = "default"
-    requests: str = ""
-    w: float = 0.5
-    policy: str = "paper"
-    perception: str = "truth"
-    seed: int = 0
-    speed: float = 1.0
-    record: Path | None = None
-    cone: bool = True
-
-
-@dataclass(frozen=True, slots=True)
-class Job:
-    """Everything that a run needs, read and checked.
-
-    Attributes:
-        layout: the cell.
-        delivery: with its stack, or a bare note.
-        requests: known from their own times on.
-        settings: of the controller.
-        seed: of every random number.
-        sight: how good the perception is.
-        cone: whether motions respect the suction's limits.
-        impossible: products that the arm cannot handle, and why; their cases go to a person.
-    """
-
-    layout: CellLayout
-    delivery: Delivery
-    requests: tuple[Request, ...]
-    settings: Settings
-    seed: int = 0
-    sight: SightSettings = field(default_factory=SightSettings)
-    cone: bool = True
-    impossible: Mapping[Gtin, str] = field(default_factory=dict)
+Seeing = Callable[[Job, SimulatedCell, Clock], Sight]
+"""What the cell sees with."""
 
 
 def run_delivery(
@@ -127,10 +80,8 @@ def prepared(options: Options) -> Job:
     Raises:
         InputError: with everything that is wrong with the first input that is wrong.
     """
-    if options.perception not in PERCEPTIONS:
-        what = f"{options.perception!r} is not there yet"
-        exists = did_you_mean(options.perception, PERCEPTIONS)
-        raise SettingError("--perception", what, exists=exists)
+    perception = one_of("--perception", options.perception, PERCEPTIONS)
+    severity = Severity(one_of("--severity", options.severity, [each.value for each in Severity]))
     layout = cell_of(options.cell)
     delivery, requests = _delivery_and_requests(options)
     findings = refuse_what_cannot_work(layout, delivery)
@@ -150,6 +101,9 @@ def prepared(options: Options) -> Job:
         recognised,
         options.cone,
         impossible,
+        perception,
+        severity,
+        case2_names() if options.delivery == CASE2 else (),
     )
 
 
@@ -165,18 +119,26 @@ def _delivery_and_requests(options: Options) -> tuple[Delivery, tuple[Request, .
     return delivery, requests
 
 
-def run_job(job: Job, *, record: Path | None = None, watch: bool = False) -> Outcome:
+def seeing_of(job: Job, cell: SimulatedCell, clock: Clock) -> Sight:
+    """What the job asks for."""
+    return cell.sight if job.perception == TRUTH else camera_sight(job, cell, clock)
+
+
+def run_job(
+    job: Job, *, record: Path | None = None, watch: bool = False, seeing: Seeing = seeing_of
+) -> Outcome:
     """Runs in simulated time.
 
     Args:
         job: what to do.
         record: the folder to keep a record in.
         watch: whether somebody watches in the terminal.
+        seeing: what the cell sees with.
     """
     began = time.perf_counter()
     tasks = read_shipped_tasks()
     with LocalStore() as store, Keeper.open(record, tasks) as keeper:
-        outcome, film = run_simulated(_run(job, store, keeper, tasks, watch=watch))
+        outcome, film = run_simulated(_run(job, store, keeper, tasks, seeing, watch=watch))
         keeper.write_choices()
     seconds = time.perf_counter() - began
     if record is not None:
@@ -186,21 +148,31 @@ def run_job(job: Job, *, record: Path | None = None, watch: bool = False) -> Out
 
 
 async def _run(
-    job: Job, store: LocalStore, keeper: Keeper, tasks: Repository, *, watch: bool
+    job: Job,
+    store: LocalStore,
+    keeper: Keeper,
+    tasks: Repository,
+    seeing: Seeing,
+    *,
+    watch: bool,
 ) -> tuple[Outcome, Film]:
     clock = LoopClock()
     cell = build(job.layout, job.delivery, job.seed, clock=clock, sight=job.sight)
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.delivery], places, seed=job.seed)
     times = Timekeeper(clock)
-    ports = timed(_ports(cell, store, clock), times)
+    sight = seeing(job, cell, clock)
+    ports = timed(_ports(cell, store, sight, clock), times)
     questions = Questions(ports.person, clock)
     work = Workplace(job.layout, job.delivery, ports, job.settings, questions, job.impossible)
+    if isinstance(sight, CameraSight):
+        sight.bind(work.pile)
     planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
+    Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.delivery.boxes))
     view.listen_to(notes)
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
@@ -228,7 +200,7 @@ def _close_books(
     stock.catch_up(keeper.journal)
 
 
-def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:
+def _ports(cell: SimulatedCell, store: LocalStore, sight: Sight, clock: LoopClock) -> Ports:
     if cell.reader is None:
         raise MissingPartError("the simulated cell has no barcode reader")
     return Ports(
@@ -239,7 +211,7 @@ def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:
         safety=cell.safety,
         person=cell.person,
         store=store,
-        sight=cell.sight,
+        sight=sight,
         clock=clock,
     )
 
@@ -247,21 +219,21 @@ def _ports(cell: SimulatedCell, store: LocalStore, clock: LoopClock) -> Ports:
 def _outcome(
     job: Job, work: Workplace, desk: Desk, cell: SimulatedCell, keeper: Keeper, times: Timekeeper
 ) -> Outcome:
-    boxes = len(job.delivery.boxes)
+    boxes = len(cell.world.cases)
     sequence = work.departures.sequence
-    left = [Left(box.id, work.left_behind.get(box.id, "the run ended")) for box in work.pile.boxes]
-    missing = boxes - len(left) - len(sequence)
-    left += [Left(BoxId(f"{UNSEEN} {k}"), "never seen") for k in range(1, missing + 1)]
+    left = left_behind(work, sequence, cell.witness, boxes)
+    stack = meant(cell.witness.indices, left, cell.referee, boxes)
     shares = times.shares(work.now)
     return Outcome(
         delivery=job.delivery.id,
         boxes=boxes,
+        stack=stack,
         departures=sequence,
-        left=tuple(left),
+        left=left,
         wishes=tuple(work.wishes),
         questions=work.questions.all,
         referee=cell.referee.summary(),
-        disagreements=disagreements(cell.referee, sequence, left, boxes),
+        disagreements=disagreements(cell.referee, sequence, left, stack),
         sim_seconds=work.now,
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,

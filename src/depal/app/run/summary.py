@@ -1,6 +1,6 @@
 """What came of a run: the cell's books, the referee's word on them, and the report."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from rich.console import RenderableType
@@ -12,7 +12,6 @@ from depal.cell.departures import Departure, Fate
 from depal.cell.questions import Asked
 from depal.cell.wishes import Wish
 from depal.domain import BoxId
-from depal.simulation.people import index_of
 from depal.simulation.referee import FLOOR, HAND, PALLET, REMOVED, Referee, Summary
 
 UNSEEN = "unseen"
@@ -34,6 +33,7 @@ class Outcome:
     Attributes:
         delivery: its id.
         boxes: how many it has.
+        stack: which box of the stack each name means, as the referee knows it.
         departures: the boxes that left the pallet, in order.
         left: the boxes that did not.
         wishes: the requests and what became of them.
@@ -54,6 +54,7 @@ class Outcome:
 
     delivery: str
     boxes: int
+    stack: Mapping[BoxId, int]
     departures: tuple[Departure, ...]
     left: tuple[Left, ...]
     wishes: tuple[Wish, ...]
@@ -105,9 +106,19 @@ class Outcome:
 
 
 def disagreements(
-    referee: Referee, departures: Sequence[Departure], left: Sequence[Left], boxes: int
+    referee: Referee,
+    departures: Sequence[Departure],
+    left: Sequence[Left],
+    stack: Mapping[BoxId, int],
 ) -> tuple[str, ...]:
-    """Where the truth differs from what the cell believes of each box, in words."""
+    """Where the truth differs from what the cell believes of each box, in words.
+
+    Args:
+        referee: who knows where boxes are, and which product each is.
+        departures: the boxes that left.
+        left: the boxes that did not, those that nobody has seen included.
+        stack: which box of the stack each name means.
+    """
     expected: dict[BoxId, tuple[str, ...]] = {entry.box: (PALLET,) for entry in left}
     for departure in departures:
         match departure.fate:
@@ -119,13 +130,26 @@ def disagreements(
                 expected[departure.box] = (FLOOR, REMOVED, PALLET)
     found = []
     for box, places in expected.items():
-        if box.startswith(UNSEEN):
-            continue
-        index = index_of(box, boxes)
+        index = stack.get(box)
         where = "nowhere" if index is None else referee.where(index)
         if where not in places:
             found.append(f"box {box}: the books say {' or '.join(places)}, it is in {where}")
-    return tuple(found)
+    return (*found, *_misnamed(referee, departures, stack))
+
+
+def _misnamed(
+    referee: Referee, departures: Sequence[Departure], stack: Mapping[BoxId, int]
+) -> list[str]:
+    """Boxes that were stored as another product than they are."""
+    found = []
+    for departure in departures:
+        index = stack.get(departure.box)
+        if departure.fate is not Fate.STORED or index is None:
+            continue
+        truth = referee.product(index)
+        if departure.gtin != truth:
+            found.append(f"box {departure.box}: stored as {departure.gtin}, it is {truth}")
+    return found
 
 
 def run_report(outcome: Outcome, perception: str) -> Report:
@@ -169,7 +193,7 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
             {"box": box, "outcome": what, "reason": reason}
             for box, what, reason in outcome.exceptions
         ],
-        "sequence": [_departure(departure, outcome.boxes) for departure in outcome.departures],
+        "sequence": [_departure(departure, outcome.stack) for departure in outcome.departures],
         "requests": [_wish(wish) for wish in outcome.wishes],
         "questions": [
             {
@@ -207,9 +231,9 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
     }
 
 
-def _departure(departure: Departure, boxes: int) -> dict[str, Json]:
+def _departure(departure: Departure, stack: Mapping[BoxId, int]) -> dict[str, Json]:
     return {
-        "stack": index_of(departure.box, boxes),
+        "stack": stack.get(departure.box),
         "box": departure.box,
         "gtin": departure.gtin,
         "grasp": departure.grasp.value if departure.grasp else None,

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from depal.app.run.inputs import cell_of, refuse_what_cannot_work
-from depal.app.run.job import Job
+from depal.app.run.values import Job
 from depal.app.unload import deliveries_of
 from depal.cell.workplace import Settings
 from depal.domain import checked_share

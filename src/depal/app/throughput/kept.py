@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from depal import __version__
 from depal.app.files import Json
-from depal.app.run.job import Job
+from depal.app.run.values import Job
 from depal.app.throughput.row import Row
 from depal.errors import SettingError
 

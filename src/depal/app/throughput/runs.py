@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from depal.app.files import Json, finite
-from depal.app.run.job import Job, run_job
+from depal.app.run.job import run_job
 from depal.app.run.summary import run_report
+from depal.app.run.values import Job
 from depal.app.throughput.asked import Asked
 from depal.app.throughput.kept import Kept
 from depal.app.throughput.row import Row

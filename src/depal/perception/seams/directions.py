@@ -55,7 +55,7 @@ def _smoothed(counts: Floats) -> Floats:
     kernel = np.array([0.1, 0.2, 0.4, 0.2, 0.1])
     ring = np.concatenate((counts[-2:], counts, counts[:2]))
     smooth = np.convolve(ring, kernel, mode="valid")
-    return np.maximum(smooth - np.median(smooth), 0.0)
+    return np.asarray(np.maximum(smooth - np.median(smooth), 0.0))
 
 
 def _peaks(counts: Floats, most: int) -> list[float]:
@@ -67,4 +67,4 @@ def _peaks(counts: Floats, most: int) -> list[float]:
         angle = (float(index) + 0.5) * BIN
         if all(abs((angle - other + 45.0) % 90.0 - 45.0) >= APART for other in found):
             found.append(angle)
-    return [angle - 90.0 if angle > 45.0 else angle for angle in found] or [0.0]
+    return [(angle + 45.0) % 90.0 - 45.0 for angle in found] or [0.0]

@@ -1,0 +1,131 @@
+"""The port `Sight` over the cell's cameras: frames, their checks, perception, memory."""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+from depal.cell.pile import Pile
+from depal.cell.sight.naming import perceived
+from depal.domain import DeliveryLine
+from depal.errors import DeviceError
+from depal.perception.faces import Look
+from depal.perception.memory import Memory, tally_of
+from depal.perception.pictures import PictureBook
+from depal.ports import Camera, Clock, Frame, View
+
+Perceive = Callable[
+    [Sequence[Frame], tuple[DeliveryLine, ...] | None, PictureBook, Look | None], Look
+]
+"""From the frames of a look to the boxes in it, by what the note says and by the look before."""
+
+Check = Callable[[Sequence[Frame], float], Sequence[str]]
+"""What is wrong with the frames of a look that was taken at this time [s], in words."""
+
+FIRST, LATER = 1.2, 0.5
+"""What computing is charged after the first look and after later ones [s]."""
+
+
+@dataclass(slots=True)
+class Book:
+    """The picture book that the cell works with; it grows.
+
+    Attributes:
+        pictures: as they are now.
+    """
+
+    pictures: PictureBook
+
+
+@dataclass(frozen=True, slots=True)
+class Eyes:
+    """What makes boxes of frames.
+
+    Attributes:
+        perceive: finds the boxes.
+        check: finds what is wrong with the frames; nothing is made of frames that are.
+    """
+
+    perceive: Perceive
+    check: Check = lambda frames, at: ()
+
+
+class CameraSight:
+    """Looks with all cameras at once and remembers."""
+
+    def __init__(
+        self,
+        cameras: Sequence[Camera],
+        eyes: Eyes,
+        book: Book,
+        note: tuple[DeliveryLine, ...] | None,
+        clock: Clock,
+        memory: Memory | None = None,
+    ) -> None:
+        """Has seen nothing yet.
+
+        Args:
+            cameras: of the cell, in its layout's order.
+            eyes: what makes boxes of frames.
+            book: of pictures.
+            note: what the delivery promises, where that is known.
+            clock: the loop's time.
+            memory: names that were given in advance.
+        """
+        self._cameras, self._eyes, self._book = tuple(cameras), eyes, book
+        self._note, self._clock = note, clock
+        self._pile: Pile | None = None
+        self.memory = memory or Memory()
+        self.frames: tuple[Frame, ...] = ()
+        self.last: Look | None = None
+        self.spent: list[float] = []
+
+    def bind(self, pile: Pile) -> None:
+        """The pile knows which boxes were taken."""
+        self._pile = pile
+
+    async def look(self) -> View:
+        """Looks; exposure and computing take the time that is charged for them.
+
+        Raises:
+            DeviceError: no picture came, or none that anything may be grasped on.
+        """
+        frames = await asyncio.gather(*(camera.take() for camera in self._cameras))
+        taken = self._clock.now()
+        await asyncio.sleep(FIRST if self.last is None else LATER)
+        problems = self._eyes.check(frames, taken)
+        if problems:
+            raise DeviceError("; ".join(problems))
+        self._forget_taken()
+        before = None if self.last is None else self._believed()
+        look = self._eyes.perceive(frames, self._expected(), self._book.pictures, before)
+        self.frames, self.last = tuple(frames), look
+        self.memory = self.memory.update(look, taken)
+        return self._view(taken)
+
+    def _view(self, taken: float) -> View:
+        memory = self.memory
+        return View(
+            taken,
+            tuple(perceived(box) for box in memory),
+            remembered=True,
+            hidden=memory.hidden,
+            unsized=frozenset(box.name for box in memory if not box.seen.sized),
+            moved=memory.moved,
+        )
+
+    def _forget_taken(self) -> None:
+        for name, at in (self._pile.taken if self._pile is not None else {}).items():
+            self.memory = self.memory.without(name, at)
+
+    def _believed(self) -> Look:
+        """What is still there of the looks before."""
+        return Look(tuple(box.seen for box in self.memory))
+
+    def _expected(self) -> tuple[DeliveryLine, ...] | None:
+        """What the note promises and has not left yet."""
+        if self._note is None or self._pile is None:
+            return self._note
+        unseen = tally_of(self._note, self._pile.left_as).unseen
+        return tuple(
+            DeliveryLine(line.product, unseen.get(line.product.gtin, 0)) for line in self._note
+        )

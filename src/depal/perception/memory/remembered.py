@@ -1,0 +1,81 @@
+"""One box as all looks together show it."""
+
+from dataclasses import dataclass, replace
+
+from depal.domain import BoxId, Gtin
+from depal.geometry import Vector3
+from depal.perception.faces import SeenBox
+from depal.perception.memory.anchors import aligned, between, resized_at_its_face
+from depal.perception.memory.fusing import fused
+
+MOVED = 0.015
+"""A box that a look shows this far from where it was has moved; nearer is noise [m]."""
+
+FULL = 5
+"""So many looks at a box are as good as any number."""
+
+FORGETTING = 0.5
+"""What a box is believed in after a look that should have shown it and did not."""
+
+OTHER_SIZE = 0.012
+"""Sizes that differ by more are not the same size seen twice [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Remembered:
+    """A box that is believed to stand on the pallet.
+
+    Attributes:
+        name: its own, kept from look to look.
+        seen: as all looks since it last moved show it.
+        looks: how many these are.
+        missed: how many looks in a row did not show it.
+        last: when a look last showed it [s].
+    """
+
+    name: BoxId
+    seen: SeenBox
+    looks: int = 1
+    missed: int = 0
+    last: float = 0.0
+
+    @property
+    def belief(self) -> float:
+        """How much speaks for the box: what looks have shown, and what they have not."""
+        return self.seen.score * min(self.looks, FULL) * FORGETTING**self.missed
+
+    @property
+    def centre(self) -> Vector3:
+        """Of the box, in the cell frame [m]."""
+        return self.seen.shape.centre
+
+    def again(self, seen: SeenBox, now: float) -> "Remembered":
+        """A look shows it: averaged where it has not moved, else as it is now."""
+        before = self.seen
+        turned = replace(seen, shape=aligned(seen.shape, before.shape))
+        moved = between(before.shape, turned.shape).shift > MOVED
+        if before.sized and not turned.sized:
+            shape = resized_at_its_face(turned.shape, before.shape.size)
+            turned = replace(turned, shape=shape, sized=True)
+        gtin = _agreed(before, turned)
+        if moved or (turned.sized and not before.sized) or self._resized(turned):
+            kept = replace(turned, gtin=gtin)
+            return replace(self, seen=kept, looks=1, missed=0, last=now)
+        kept = replace(fused(before, turned, self.looks), gtin=gtin)
+        return replace(self, seen=kept, looks=self.looks + 1, missed=0, last=now)
+
+    def _resized(self, seen: SeenBox) -> bool:
+        """Whether a look has learned another size, and knows better: by the product's print."""
+        differ = max(abs(a - b) for a, b in zip(self.seen.shape.size, seen.shape.size, strict=True))
+        return differ > OTHER_SIZE and (seen.gtin is not None or self.seen.gtin is None)
+
+    def unseen(self) -> "Remembered":
+        """A look does not show it."""
+        return replace(self, missed=self.missed + 1)
+
+
+def _agreed(before: SeenBox, seen: SeenBox) -> Gtin | None:
+    """The product of a box: what a look can name stays known; two names are none."""
+    if before.gtin is None or seen.gtin is None or before.gtin == seen.gtin:
+        return seen.gtin if before.gtin is None else before.gtin
+    return None
