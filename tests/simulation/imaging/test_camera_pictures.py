@@ -14,7 +14,7 @@ from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.hall import RunLight
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.imaging.severity import Severity
-from depal.simulation.imaging.wear import BULGE, FILM, TAPE, WEAR, Wear
+from depal.simulation.imaging.wear import BULGE, CREASE, FILM, TAPE, WEAR, Wear
 from depal.simulation.world import World
 
 LAYOUT = shipped_cell("default")
@@ -40,7 +40,8 @@ def test_easy_boxes_look_as_printed() -> None:
     """No tape, no film, no bulge, gains of one."""
     found = marks(Severity.EASY, 1)
     assert np.all(found[:, :3] == 1.0)
-    assert not found[:, 3:].any()
+    assert not found[:, 3:CREASE].any()
+    assert np.all(found[:, CREASE] == 1.0)
 
 
 def test_normal_boxes_differ_in_print_tape_and_bulge() -> None:

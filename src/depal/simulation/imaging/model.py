@@ -18,7 +18,8 @@ from depal.simulation.imaging.backdrop import (
 )
 from depal.simulation.imaging.deep import disparities
 from depal.simulation.imaging.depth_noise import DEPTH, DepthSensor
-from depal.simulation.imaging.exposure import Looks, Sun, expose, shade_ground
+from depal.simulation.imaging.exposure import Looks, Sun, expose
+from depal.simulation.imaging.ground import shade_ground
 from depal.simulation.imaging.hall import RunLight
 from depal.simulation.imaging.kernels import cover
 from depal.simulation.imaging.lens import Lens
@@ -155,7 +156,7 @@ class CameraModel:
         cover(corners, lens.values, nearest, owner, first)
         lit = sun_map([mesh], self._sun, behind.sun)
         most = cv2.dilate(lit, np.ones((3, 3), dtype=np.uint8))
-        way, kept = carried_by(self._sun, lens), self._light.kept(before)
+        way, kept = carried_by(self._sun, lens), self._light.in_shadow(before, self._sun)
         sun = Sun(self._sun.values, way, lit, np.asarray(most), kept)
         flat = colour.reshape(-1, 3)
         bare = behind.colour.reshape(-1, 3)
