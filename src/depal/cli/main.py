@@ -16,6 +16,7 @@ from depal.cli.delivery import delivery
 from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.run import run
+from depal.cli.see import see
 from depal.cli.study import study
 from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
@@ -34,6 +35,7 @@ app.add_typer(cell, name="cell")
 app.add_typer(tasks, name="tasks")
 app.command()(run)
 app.command()(replay)
+app.command()(see)
 
 
 def main() -> None:
