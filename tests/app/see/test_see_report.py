@@ -18,11 +18,12 @@ from depal.app.see.given import Given, given
 from depal.app.see.marked import direct, marked
 from depal.app.see.report import panels_of, see_report
 from depal.cell.files import find_cell
+from depal.domain import Product
 from depal.errors import DeliveryError, FrameError, SettingError
 from depal.geometry import Pose
 from depal.perception.faces import Look, Relation
 from depal.perception.frames import write_frame_folder
-from depal.perception.pictures import PictureBook
+from depal.perception.pictures import PictureBook, ProductPictures
 from depal.perception.rasters import Region
 from depal.simulation.imaging.lens import aimed
 from depal.studies.drawing import save_figure
@@ -95,7 +96,17 @@ def test_a_table_has_a_line_for_each_box_and_each_stray_face() -> None:
     text = out.export_text()
     for words in (GTIN, f"{OTHER} ?", "b1", "b3", "f1", "0.200 x 0.200 x 0.200 ?"):
         assert words in text
-    assert "3 boxes seen by one camera, 1 of them named for certain" in text
+    assert "3 boxes seen by one camera, without pictures of products" in text
+
+
+def test_the_title_says_how_many_boxes_are_named() -> None:
+    """Where there are pictures to name them by."""
+    product = Product(GTIN, "p", (0.3, 0.2, 0.2), 5.0)
+    known = replace(one_frame(), book=PictureBook({GTIN: ProductPictures(product)}))
+    assert see_report(known, look(), 0.25).shown[-1] == (
+        "3 boxes seen by one camera, 1 of 3 named for certain"
+    )
+    assert see_report(known, Look(()), 0.25).shown[-1] == "No box seen by one camera"
 
 
 def test_a_face_is_drawn_where_a_camera_sees_it_most_squarely() -> None:
