@@ -64,9 +64,7 @@ class Mimic:
         """What a look finds."""
         del frames, expected, book, before
         number, self.looks = self.looks, self.looks + 1
-        sight = TruthSight(
-            self.cell.world, _Still(), SightSettings(share=self.failures.share)
-        )
+        sight = TruthSight(self.cell.world, _Still(), SightSettings(share=self.failures.share))
         visible = sorted(sight.visible_boxes())
         random = np.random.default_rng([self.seed, 9, number])
         found: list[SeenBox] = []
@@ -88,6 +86,30 @@ class Mimic:
             x, y, z = found[0].shape.centre
             found.append(_seen(OrientedBox.upright((x, y, z + 0.4), (0.2, 0.2, 0.15)), 0.55))
         return Look(tuple(found))
+
+    def rest(
+        self, frames: Sequence[Frame], boxes: Sequence[OrientedBox]
+    ) -> tuple[OrientedBox, ...]:
+        """Visible boxes that no believed box explains, as depths would show them."""
+        del frames
+        sight = TruthSight(self.cell.world, _Still(), SightSettings(share=0.02))
+        steps = (np.arange(8) + 0.5) / 8 - 0.5
+        grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
+        out = []
+        for index in sorted(sight.visible_boxes()):
+            pose, size = self._truth(index)
+            points = (grid * np.array(size)) @ np.array(pose.rotation).T
+            points += np.array(pose.translation)
+            free = np.ones(len(points), dtype=bool)
+            for box in boxes:
+                inverse = box.pose.inverse
+                local = points @ np.array(inverse.rotation).T + np.array(inverse.translation)
+                free &= ~(np.abs(local) < np.array(box.size) / 2 + 0.03).all(axis=1)
+            if free.sum() > 4:
+                low, high = points[free].min(axis=0), points[free].max(axis=0)
+                middle = tuple(((low + high) / 2).tolist())
+                out.append(OrientedBox.upright(middle, tuple((high - low + 0.02).tolist())))
+        return tuple(out)
 
     def _happens(self, index: int, number: int, kind: int, share: float) -> bool:
         period = 0 if kind > 4 else number // LASTS
@@ -135,9 +157,7 @@ class Mimic:
 
     def _merged(self, one: int, two: int) -> SeenBox:
         """One box that covers both."""
-        corners = np.concatenate(
-            [OrientedBox(*self._truth(index)).corners for index in (one, two)]
-        )
+        corners = np.concatenate([OrientedBox(*self._truth(index)).corners for index in (one, two)])
         low, high = corners.min(axis=0), corners.max(axis=0)
         return _seen(
             OrientedBox(Pose(tuple(((low + high) / 2).tolist())), tuple((high - low).tolist())), 0.6
@@ -169,16 +189,15 @@ class QuickCamera:
         self.cell.world.advance(self.clock.now())
         k = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
         empty = np.zeros((2, 2), dtype=np.float32)
-        return Frame(
-            self.clock.now(), np.zeros((2, 2, 3), dtype=np.uint8), empty, k, k, Pose()
-        )
+        return Frame(self.clock.now(), np.zeros((2, 2, 3), dtype=np.uint8), empty, k, k, Pose())
 
 
 def mimicking(failures: Failures | None = None):  # noqa: ANN201 - a callable of `run_job`
     """What a run sees with."""
 
     def seeing(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
-        eyes = Eyes(Mimic(cell, failures or Failures(), job.seed))
+        mimic = Mimic(cell, failures or Failures(), job.seed)
+        eyes = Eyes(mimic, mimic.rest)
         cameras = [QuickCamera(clock, cell)]
         memory = Memory(places=job.named)
         return CameraSight(cameras, eyes, Book(PictureBook()), job.delivery.lines, clock, memory)

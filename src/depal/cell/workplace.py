@@ -10,11 +10,23 @@ from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
-from depal.domain import BoxId, CellLayout, Delivery, Grasp, Gtin, Perceived, PlaceId, Product
+from depal.domain import (
+    Approach,
+    BoxId,
+    CellLayout,
+    Delivery,
+    Grasp,
+    Gtin,
+    Perceived,
+    PlaceId,
+    Product,
+    Recognition,
+)
 from depal.executive.engine import Call
 from depal.executive.events import Change
 from depal.executive.runtime import Runtime
 from depal.geometry import Vector3
+from depal.perception.memory import Tally, tally_of
 from depal.ports import (
     Arm,
     BarcodeReader,
@@ -133,6 +145,9 @@ class Workplace:
         held: the box in the gripper.
         left_behind: boxes that stay on the pallet, and why.
         aside_reasons: why boxes are set aside.
+        doubted: boxes that were not as they looked: they are looked at before another try.
+        strangers: what the reader saw on boxes that are not on the note.
+        seen_to: whether a person has looked for what the note promises and no look shows.
     """
 
     layout: CellLayout
@@ -147,6 +162,9 @@ class Workplace:
     held: Held | None = None
     left_behind: dict[BoxId, str] = field(default_factory=dict)
     aside_reasons: dict[BoxId, str] = field(default_factory=dict)
+    doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
+    strangers: dict[BoxId, str] = field(default_factory=dict)
+    seen_to: bool = False
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -214,6 +232,27 @@ class Workplace:
         self.ended(box, Fate.LOST, reason="fell out of the gripper")
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
         self.allocate(Call("recover", (box,), FIRST))
+
+    def mistrust(self, box: BoxId, reasons: Iterable[str]) -> None:
+        """A box in the gripper is not what it was taken for: it will be shown to the reader."""
+        self.pile.doubt(box)
+        self.wishes.doubted(box)
+        self.aside_reasons[box] = "; ".join(reasons)
+        facts = [(f"{box}.known", False), (f"{box}.product", None), (f"{box}.target", None)]
+        self.tell(facts, "scale")
+
+    def tally(self) -> Tally:
+        """The note beside what has left the pallet and what is believed to stand there."""
+        there = [box.gtin if isinstance(box, Recognition) else None for box in self.pile.boxes]
+        return tally_of(self.delivery.lines, (*self.pile.left_as, *there))
+
+    def surplus(self, gtin: Gtin) -> str | None:
+        """Why a box that has left cannot be of a product: there were too many already."""
+        left = [each for each in self.pile.left_as if each is not None]
+        for surplus in tally_of(self.delivery.lines, left).surplus:
+            if surplus.gtin == gtin:
+                return str(surplus)
+        return None
 
     def exchange_of(self, trolley: str) -> Ending:
         """The exchange of a trolley."""

@@ -165,10 +165,10 @@ async def _run(
     ports = timed(_ports(cell, store, sight, clock), times)
     questions = Questions(ports.person, clock)
     work = Workplace(job.layout, job.delivery, ports, job.settings, questions, job.impossible)
-    if isinstance(sight, CameraSight):
-        sight.bind(work.pile)
     planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
+    if isinstance(sight, CameraSight):
+        sight.bind(work.pile, desk.viewing.covered)
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)

@@ -8,6 +8,7 @@ from depal.cell.pile import Pile
 from depal.cell.sight.naming import perceived
 from depal.domain import DeliveryLine
 from depal.errors import DeviceError
+from depal.geometry import OrientedBox
 from depal.perception.faces import Look
 from depal.perception.memory import Memory, tally_of
 from depal.perception.pictures import PictureBook
@@ -36,17 +37,28 @@ class Book:
     pictures: PictureBook
 
 
+Rest = Callable[[Sequence[Frame], Sequence[OrientedBox]], tuple[OrientedBox, ...]]
+"""Solids where something stands in the frames of a look that none of these boxes explains."""
+
+
+def no_problem(_frames: Sequence[Frame], _at: float) -> tuple[str, ...]:
+    """A check that is content with everything."""
+    return ()
+
+
 @dataclass(frozen=True, slots=True)
 class Eyes:
     """What makes boxes of frames.
 
     Attributes:
         perceive: finds the boxes.
+        rest: finds what the boxes do not explain.
         check: finds what is wrong with the frames; nothing is made of frames that are.
     """
 
     perceive: Perceive
-    check: Check = lambda frames, at: ()
+    rest: Rest
+    check: Check = no_problem
 
 
 class CameraSight:
@@ -74,14 +86,20 @@ class CameraSight:
         self._cameras, self._eyes, self._book = tuple(cameras), eyes, book
         self._note, self._clock = note, clock
         self._pile: Pile | None = None
+        self._covered: Callable[[], bool] = lambda: False
         self.memory = memory or Memory()
         self.frames: tuple[Frame, ...] = ()
         self.last: Look | None = None
         self.spent: list[float] = []
 
-    def bind(self, pile: Pile) -> None:
-        """The pile knows which boxes were taken."""
-        self._pile = pile
+    def bind(self, pile: Pile, covered: Callable[[], bool]) -> None:
+        """Who knows the rest.
+
+        Args:
+            pile: knows which boxes were taken.
+            covered: whether the arm is before the pallet.
+        """
+        self._pile, self._covered = pile, covered
 
     async def look(self) -> View:
         """Looks; exposure and computing take the time that is charged for them.
@@ -104,13 +122,17 @@ class CameraSight:
 
     def _view(self, taken: float) -> View:
         memory = self.memory
+        rest = None
+        if not self._covered():
+            rest = self._eyes.rest(self.frames, [box.seen.shape for box in memory])
         return View(
             taken,
-            tuple(perceived(box) for box in memory),
+            tuple(perceived(box, self._note) for box in memory),
             remembered=True,
             hidden=memory.hidden,
             unsized=frozenset(box.name for box in memory if not box.seen.sized),
             moved=memory.moved,
+            obstacles=rest,
         )
 
     def _forget_taken(self) -> None:
