@@ -6,8 +6,10 @@
     │   ├── RequestError    a request, or a file of them
     │   ├── PileError       a set of perceived boxes that cannot stand in one world
     │   ├── TaskError       a task file, or a call of a task, that cannot be used
+    │   ├── BookError       a picture book that cannot be used
     │   ├── SettingError    a number or a name outside its range
-    │   └── CellError       a cell file, or a cell that cannot do its work
+    │   ├── CellError       a cell file, or a cell that cannot do its work
+    │   └── FrameError      a recorded frame, or a calibration, that cannot be used
     ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
@@ -20,10 +22,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 __all__ = [
+    "BookError",
     "CellError",
     "DeliveryError",
     "DepalError",
     "DeviceError",
+    "FrameError",
     "InputError",
     "JournalError",
     "MissingPartError",
@@ -113,6 +117,10 @@ class TaskError(InputError):
     """A task file, or a call of a task, that cannot be used."""
 
 
+class BookError(InputError):
+    """A picture book that cannot be used."""
+
+
 class SettingError(InputError):
     """A setting outside its range."""
 
@@ -123,6 +131,10 @@ class SettingError(InputError):
 
 class CellError(InputError):
     """A cell file that cannot be used, or a cell that cannot do its work."""
+
+
+class FrameError(InputError):
+    """A recorded frame, or a calibration, that cannot be used."""
 
 
 class DeviceError(DepalError):

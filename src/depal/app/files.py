@@ -27,12 +27,21 @@ def write_json(path: Path, fields: dict[str, Json]) -> None:
     Raises:
         SettingError: the folder does not exist or cannot be written to.
     """
+    write_text(path, report_text(fields), "--json")
+
+
+def report_text(fields: dict[str, Json]) -> str:
+    """A report as JSON, with the version and the command that made it.
+
+    Args:
+        fields: the report; numbers that are not finite become null.
+    """
     report: dict[str, Json] = {
         "version": __version__,
         "command": shlex.join(["depal", *sys.argv[1:]]),
         **fields,
     }
-    write_text(path, json.dumps(finite(report), indent=2, allow_nan=False) + "\n", "--json")
+    return json.dumps(finite(report), indent=2, allow_nan=False) + "\n"
 
 
 def write_text(path: Path, text: str, option: str) -> None:

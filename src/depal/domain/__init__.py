@@ -14,6 +14,7 @@ from depal.domain.grasp import Approach, Cup, Grasp
 from depal.domain.layout import (
     CameraMount,
     CellLayout,
+    Fiducial,
     PalletStand,
     ReaderMount,
     SpeedLimits,
@@ -55,6 +56,7 @@ __all__ = [
     "Delivery",
     "DeliveryLine",
     "Detection",
+    "Fiducial",
     "Grasp",
     "Gtin",
     "JointLimits",

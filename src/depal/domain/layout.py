@@ -90,6 +90,21 @@ class ReaderMount:
 
 
 @dataclass(frozen=True, slots=True)
+class Fiducial:
+    """A square marker that is fixed to the cell, for cameras to find their pose by.
+
+    Attributes:
+        id: which pattern it shows (ArUco, 4 x 4 bits, the first 50).
+        size: edge of its black square [m]; a white rim of a sixth of it lies around.
+        cell_from_marker: its middle: x right and y down as one looks at it, z into its plate.
+    """
+
+    id: int
+    size: float
+    cell_from_marker: Pose
+
+
+@dataclass(frozen=True, slots=True)
 class SpeedLimits:
     """How fast the arm may be, beside its axes' own limits.
 
@@ -121,6 +136,7 @@ class CellLayout:
         reader: a held box can be shown to it.
         speeds: limits for the arm.
         fixtures: further solid things (masts, the reader's housing), in the cell frame.
+        fiducials: markers on the floor and on fixtures, each pattern once.
     """
 
     name: str
@@ -134,6 +150,7 @@ class CellLayout:
     reader: ReaderMount
     speeds: SpeedLimits
     fixtures: tuple[OrientedBox, ...] = ()
+    fiducials: tuple[Fiducial, ...] = ()
 
     @property
     def places(self) -> dict[PlaceId, Place]:

@@ -56,9 +56,10 @@ class Raster:
         facing: which faces it shows.
         cell_from_raster: its frame.
         step: edge of a pixel [m].
-        colour: (h, w, 3) uint8, RGB; black where nothing is known.
+        colour: (h, w, 3) uint8, RGB; a little beyond the edges of what is known too, where depths
+            are often missing; black beyond that.
         depth: (h, w) float32 along z, smoothed [m]; nan where nothing is known.
-        known: (h, w) bool: seen by a camera.
+        known: (h, w) bool: depth and colour were seen by a camera.
     """
 
     facing: Facing

@@ -35,13 +35,13 @@ def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
     useful = np.flatnonzero(values > 0.0)
     if not useful.size:
         return []
-    inside = _inside([rectangles[index] for index in useful])
+    inside = _inside([rectangles[index] for index in useful.tolist()])
     shared = np.unique(inside[inside.sum(axis=1) > 1], axis=0)
     if not len(shared):
         return [int(index) for index in useful]
     result = milp(
         -values[useful],
-        integrality=np.ones(len(useful)),
+        integrality=np.ones(len(useful), dtype=np.int64),
         bounds=Bounds(0.0, 1.0),
         constraints=LinearConstraint(csr_array(shared.astype(float)), -np.inf, 1.0),
         options={"node_limit": NODES},

@@ -4,6 +4,7 @@ from typing import Annotated
 
 from pydantic import BaseModel, BeforeValidator, Field
 
+from depal.cell.files.fiducials_model import FiducialEntry
 from depal.cell.files.places_model import PlacesEntry
 from depal.cell.files.quantities import (
     LISTED,
@@ -179,6 +180,9 @@ class CellEntry(BaseModel):
     fixtures: Annotated[tuple[FixtureEntry, ...], LISTED] = Field(
         default=(), description="a list of further solid things: name, centre, size, turn"
     )
+    fiducials: Annotated[tuple[FiducialEntry, ...], LISTED] = Field(
+        default=(), description="a list of markers: id, size, at, normal, turn"
+    )
 
     def as_layout(self) -> CellLayout:
         """The cell as the cell's own value; it must not contradict itself."""
@@ -198,4 +202,5 @@ class CellEntry(BaseModel):
                 *(fixture.as_box() for fixture in self.fixtures),
                 *self.robot.as_plinth(),
             ),
+            fiducials=tuple(fiducial.as_fiducial() for fiducial in self.fiducials),
         )

@@ -31,6 +31,7 @@ def contradictions(cell: CellEntry) -> Iterator[Finding]:
     for index, model in enumerate(cell.places.models):
         yield from _model(("places", "models", index), model)
     yield from _sights(cell)
+    yield from _fiducials(cell)
     floor = cell.safety.floor
     for axis, name in enumerate("xy"):
         if not floor.lower[axis] < floor.upper[axis]:
@@ -78,6 +79,18 @@ def _names(cell: CellEntry) -> Iterator[Finding]:
     if places.aside not in storages:
         what = f"there is no storage '{places.aside}'"
         yield Finding(("places", "aside"), what, exists=choices(places.aside, storages))
+
+
+def _fiducials(cell: CellEntry) -> Iterator[Finding]:
+    first: dict[int, int] = {}
+    for index, fiducial in enumerate(cell.fiducials):
+        loc: Loc = ("fiducials", index)
+        earlier = first.setdefault(fiducial.id, index)
+        if earlier != index:
+            what = f"{fiducial.id} is already the pattern of"
+            yield Finding((*loc, "id"), what, "every pattern once", twin=("fiducials", earlier))
+        if math.hypot(*fiducial.normal) < _ROUNDING:
+            yield Finding((*loc, "normal"), "points nowhere", "a direction, such as [0, 0, 1]")
 
 
 def _repeated(loc: Loc, names: Iterable[str]) -> Iterator[Finding]:

@@ -40,6 +40,9 @@ def _name(value: str) -> str:
     return value
 
 
+LISTED = Field(strict=False)
+"""YAML knows lists alone; strictness would ask for a tuple."""
+
 Length = Annotated[
     float,
     AfterValidator(_within(0.001, FARTHEST, " m")),
@@ -114,6 +117,23 @@ Pixels = Annotated[
 ]
 """Along one side of a picture."""
 
+Pattern = Annotated[
+    int,
+    AfterValidator(_within(0, 49, "")),
+    WithJsonSchema({"type": "integer", "minimum": 0, "maximum": 49}),
+]
+"""The number of a fiducial's pattern."""
+
+Direction = Annotated[
+    tuple[
+        Annotated[float, AfterValidator(_within(-1.0, 1.0, "")), WithJsonSchema(_range(-1.0, 1.0))],
+        ...,
+    ],
+    LISTED,
+    BeforeValidator(of_length(3, 3, "number", "numbers")),
+]
+"""x, y, z of a direction; its length does not matter."""
+
 Cups = Annotated[
     int,
     AfterValidator(_within(1, 20, "")),
@@ -127,9 +147,6 @@ Name = Annotated[
     WithJsonSchema({"type": "string", "pattern": f"^{_NAME.pattern}$"}),
 ]
 """What something is called in the file and in every message about it."""
-
-LISTED = Field(strict=False)
-"""YAML knows lists alone; strictness would ask for a tuple."""
 
 TWO: JsonDict = {"minItems": 2, "maxItems": 2}
 THREE: JsonDict = {"minItems": 3, "maxItems": 3}

@@ -161,8 +161,8 @@ def surfaces(depth: Narrow, step: float, rectangles: Ints, out: Floats) -> None:
         mx, my = (x0 + x1) / 2, (y0 + y1) / 2
         s = np.zeros(9)
         seen, places = 0.0, 0.0
-        for y in range(y0 + 2, y1 - 1, 3):
-            for x in range(x0 + 2, x1 - 1, 3):
+        for y in range(y0 + 2, y1 - 1, 5):
+            for x in range(x0 + 2, x1 - 1, 5):
                 places += 1.0
                 d = depth[y, x]
                 if math.isnan(d):
@@ -204,8 +204,8 @@ def _beyond(
     mx, my = (x0 + x1) / 2, (y0 + y1) / 2
     total, count = 0.0, 0
     first, last = (y0, y1) if side % 2 == 0 else (x0, x1)
-    for along in range(first + 3, last - 2, 2):
-        for away in range(4, 9, 2):
+    for along in range(first + 3, last - 2, 3):
+        for away in range(5, 9, 3):
             if side == 0:
                 x, y = x0 - away, along
             elif side == 1:

@@ -17,10 +17,10 @@ Narrow = npt.NDArray[np.float32]
 RUN = 0.050
 """A corner's two edges are looked at over so much of their length [m]."""
 
-LEAST = 0.25
+LEAST = 0.15
 """Mean evidence along an edge below which there is no corner."""
 
-MOST = 220
+MOST = 400
 """So many corners of each kind are followed up at the most."""
 
 SMALLEST, LARGEST = 0.06, 0.72
@@ -38,11 +38,8 @@ NEAR = 0.006
 TINY = 8
 """Narrower rectangles are none [pixel]."""
 
-KEPT = 500
-"""So many rectangles go on to the score."""
-
-ALIKE = 0.012
-"""Rectangles whose sides all lie so near to one another are the same [m]."""
+KEPT = 8_000
+"""So many rectangles of one direction go on to the score."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -76,8 +73,8 @@ def between_lines(seams: Seams, sizes: Sequence[tuple[float, float]]) -> Rectang
     wide, high = (pixels[:, 2:] - pixels[:, :2]).T
     pixels = _different(pixels[(wide > TINY) & (high > TINY)])
     value = _rough(pixels, rows, columns)
-    kept = _best(pixels, value, round(ALIKE / seams.step))
-    return Rectangles(seams, pixels[kept], measured(seams, pixels[kept], rows, columns))
+    pixels = pixels[np.argsort(-value, kind="stable")[:KEPT]]
+    return Rectangles(seams, pixels, measured(seams, pixels, rows, columns))
 
 
 def running(seams: Seams) -> tuple[Floats, Floats]:
@@ -98,7 +95,7 @@ def _different(pixels: Ints) -> Ints:
     """Each rectangle once."""
     wide = 1 << 14
     key = pixels @ np.array([wide**3, wide**2, wide, 1])
-    return pixels[np.unique(key, return_index=True)[1]]
+    return np.asarray(pixels[np.unique(key, return_index=True)[1]])
 
 
 def _sums(values: Narrow) -> Floats:
@@ -159,18 +156,3 @@ def _rough(pixels: Ints, rows: Floats, columns: Floats) -> Floats:
     kernels.sides(rows, columns, pixels, features)
     sides, thirds = features[:, :4], features[:, 4:]
     return np.asarray(sides.mean(axis=1) + sides.min(axis=1) + thirds.min(axis=1))
-
-
-def _best(pixels: Ints, value: Floats, alike: int) -> list[int]:
-    """Indices of the best, none like a better one."""
-    kept: list[int] = []
-    chosen = np.zeros((KEPT, 4), dtype=np.int64)
-    for index in np.argsort(-value, kind="stable"):
-        if len(kept) == KEPT:
-            break
-        away = np.abs(chosen[: len(kept)] - pixels[index]).max(axis=1, initial=0)
-        if kept and (away <= alike).any():
-            continue
-        chosen[len(kept)] = pixels[index]
-        kept.append(int(index))
-    return kept

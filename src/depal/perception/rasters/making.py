@@ -18,6 +18,9 @@ Narrow = npt.NDArray[np.float32]
 STEP = 0.003
 """Edge of a raster's pixel [m]."""
 
+FINER = 2
+"""Depths are gathered in pixels this many times as wide as colours."""
+
 REACH = 0.022
 """Normals are taken over twice so much of a surface, seen squarely [m]."""
 
@@ -35,6 +38,9 @@ SAME = 0.022
 
 GROWN = 0.018
 """Surfaces are carried on over their edges by so much [m]."""
+
+FLAT = 0.04
+"""What faces up and lies less than this above the ground is the ground [m]."""
 
 HIDDEN = 0.06
 """A place so far behind what a camera measures is hidden from it [m]."""
@@ -101,18 +107,14 @@ def _raster(
     region: Region,
     step: float,
 ) -> Raster:
-    region_from_raster, (rows, columns) = region.frame_of(facing, step)
+    region_from_raster, shape = region.frame_of(facing, step, FINER)
     cell_from_raster = region.cell_from_region @ region_from_raster
-    deepest = region.size[0] if facing is Facing.FRONT else region.size[2] - region.solid
-    nearest = np.full((rows, columns), np.inf, dtype=np.float32)
-    raster_from_cell = cell_from_raster.inverse
-    for frame, (depth, normals) in zip(frames, surfaces, strict=True):
-        pose = carried(raster_from_cell @ frame.cell_from_camera)
-        k = intrinsics(frame.depth_k)
-        kernels.splat(depth, normals, k, pose, step, FLATTEST, deepest, nearest)
-    closed = _grown(_closed(nearest), round(GROWN / step))
-    smooth = np.empty_like(closed)
-    kernels.level(closed, round(SMOOTH / step), SAME, smooth)
+    depth_map = _depths(facing, frames, surfaces, region, cell_from_raster, shape, step)
+    smooth, reached = (
+        np.ascontiguousarray(np.repeat(np.repeat(each, FINER, axis=0), FINER, axis=1))
+        for each in depth_map
+    )
+    rows, columns = shape
     weight = np.zeros((rows, columns), dtype=np.float32)
     colour = np.zeros((rows, columns, 3), dtype=np.float32)
     for frame in frames:
@@ -120,10 +122,37 @@ def _raster(
         k = intrinsics(frame.colour_k)
         scale = frame.depth_k[0][0] / frame.colour_k[0][0]
         depth = np.ascontiguousarray(frame.depth, dtype=np.float32)
-        kernels.gather(smooth, frame.colour, depth, scale, k, pose, step, HIDDEN, weight, colour)
-    seen = weight > 0.0
-    picture = np.clip(np.round(colour), 0, 255).astype(np.uint8)
+        kernels.gather(reached, frame.colour, depth, scale, k, pose, step, HIDDEN, weight, colour)
+    seen = (weight > 0.0) & np.isfinite(smooth)
+    picture = np.clip(np.round(colour), weight[..., None] > 0.0, 255).astype(np.uint8)
     return Raster(facing, cell_from_raster, step, picture, smooth, np.asarray(seen))
+
+
+def _depths(
+    facing: Facing,
+    frames: Sequence[Frame],
+    surfaces: Sequence[tuple[Narrow, Narrow]],
+    region: Region,
+    cell_from_raster: Pose,
+    shape: tuple[int, int],
+    step: float,
+) -> tuple[Narrow, Narrow]:
+    """The smoothed depths, and the same carried on over the edges of surfaces, both coarse."""
+    coarse, shift = step * FINER, step * (FINER - 1) / 2
+    cell_from_coarse = cell_from_raster @ Pose((shift, shift, 0.0))
+    deepest = region.size[0] if facing is Facing.FRONT else region.size[2] - region.ground - FLAT
+    nearest = np.full((shape[0] // FINER, shape[1] // FINER), np.inf, dtype=np.float32)
+    for frame, (depth, normals) in zip(frames, surfaces, strict=True):
+        pose = carried(cell_from_coarse.inverse @ frame.cell_from_camera)
+        k = intrinsics(frame.depth_k)
+        kernels.splat(depth, normals, k, pose, coarse, FLATTEST, deepest, nearest)
+    closed = _closed(nearest)
+    if facing is Facing.FRONT:
+        closed[round((region.size[2] - region.ground) / coarse) :] = np.inf
+    smooth = np.empty_like(closed)
+    kernels.level(closed, round(SMOOTH / coarse), SAME, smooth)
+    reached = _grown(np.where(np.isnan(smooth), np.inf, smooth), round(GROWN / coarse))
+    return smooth, reached.astype(np.float32)
 
 
 def _grown(depth: Narrow, pixels: int) -> Narrow:

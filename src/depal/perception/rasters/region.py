@@ -13,6 +13,9 @@ from depal.perception.faces import Facing
 AROUND = 0.06
 """Boxes may overhang their pallet by so much [m]."""
 
+BELOW = 0.06
+"""The region begins so far below the deck [m]."""
+
 TALLEST = 1.85
 """The top of the highest pile above the deck [m]."""
 
@@ -27,12 +30,12 @@ class Region:
     Attributes:
         cell_from_region: its frame.
         size: along x, y, z [m].
-        solid: what is below this height of the region is no box [m].
+        ground: what boxes stand on at the lowest is so high in the region [m].
     """
 
     cell_from_region: Pose
     size: tuple[float, float, float]
-    solid: float = 0.0
+    ground: float = 0.0
 
     @classmethod
     def above(cls, stand: PalletStand) -> Self:
@@ -45,17 +48,29 @@ class Region:
         away = axis * math.copysign(1.0, float(axis @ (x, y, 0.0)))
         deep, wide = along + 2 * AROUND, across + 2 * AROUND
         left = np.cross((0.0, 0.0, 1.0), away)
-        origin = np.array([x, y, z]) - away * deep / 2
+        origin = np.array([x, y, z - BELOW]) - away * deep / 2
         pose = Pose.from_arrays(origin, np.column_stack((away, left, (0.0, 0.0, 1.0))))
-        return cls(pose, (deep, wide, TALLEST))
+        return cls(pose, (deep, wide, TALLEST + BELOW), BELOW)
 
-    def frame_of(self, facing: Facing, step: float) -> tuple[Pose, tuple[int, int]]:
-        """`region_from_raster` and the rows and columns of a raster with this step [m]."""
+    def frame_of(
+        self, facing: Facing, step: float, multiple: int = 1
+    ) -> tuple[Pose, tuple[int, int]]:
+        """Where a raster with pixels of this step [m] lies, and its rows and columns.
+
+        Args:
+            facing: what it is to show.
+            step: edge of a pixel [m].
+            multiple: rows and columns are multiples of this.
+
+        Returns:
+            `region_from_raster`, and rows and columns.
+        """
         deep, wide, high = self.size
         if facing is Facing.FRONT:
             turn = ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0))
-            pose = Pose((0.0, wide / 2 - step / 2, high - step / 2), turn)
-            return pose, (math.ceil(high / step), math.ceil(wide / step))
-        turn = ((0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
-        pose = Pose((deep - step / 2, wide / 2 - step / 2, high), turn)
-        return pose, (math.ceil(deep / step), math.ceil(wide / step))
+            corner, down = (0.0, wide / 2 - step / 2, high - step / 2), high
+        else:
+            turn = ((0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
+            corner, down = (deep - step / 2, wide / 2 - step / 2, high), deep
+        rows, columns = (multiple * math.ceil(each / step / multiple) for each in (down, wide))
+        return Pose(corner, turn), (rows, columns)

@@ -55,7 +55,7 @@ def _smoothed(counts: Floats) -> Floats:
     kernel = np.array([0.1, 0.2, 0.4, 0.2, 0.1])
     ring = np.concatenate((counts[-2:], counts, counts[:2]))
     smooth = np.convolve(ring, kernel, mode="valid")
-    return np.maximum(smooth - np.median(smooth), 0.0)
+    return np.asarray(np.maximum(smooth - np.median(smooth), 0.0))
 
 
 def _peaks(counts: Floats, most: int) -> list[float]:

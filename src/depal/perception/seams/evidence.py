@@ -23,6 +23,9 @@ STEP = 0.012
 ACROSS = 0.010
 """Depths are compared so far on either side of an edge [m]."""
 
+BEYOND = 0.015
+"""Edges are looked for so far beyond what is known [m]."""
+
 SLACK = 0.004
 """An edge may be so far from where it is looked for [m]."""
 
@@ -88,24 +91,27 @@ def _raster_from_turned(
 
 
 def _turned(
-    image: npt.NDArray[np.generic],
+    image: npt.NDArray[np.float32] | npt.NDArray[np.uint8],
     back: npt.NDArray[np.float64],
     size: tuple[int, int],
     how: int = cv2.INTER_LINEAR,
-) -> npt.NDArray[np.generic]:
-    return cv2.warpAffine(image, back, size, flags=how | cv2.WARP_INVERSE_MAP)
+) -> Narrow:
+    return np.asarray(
+        cv2.warpAffine(image, back, size, flags=how | cv2.WARP_INVERSE_MAP), dtype=np.float32
+    )
 
 
 def _channels(raster: Raster) -> Narrow:
     """(h, w, 3) log brightness and two log ratios of colours, unknown places as their nearest."""
     logs = np.log(raster.colour.astype(np.float32) + 6.0)
-    unknown = (~raster.known).astype(np.uint8)
-    if raster.known.any():
+    coloured = raster.colour.any(axis=2)
+    unknown = np.asarray(~coloured, dtype=np.uint8)
+    if coloured.any():
         _, labels = cv2.distanceTransformWithLabels(
             unknown, cv2.DIST_L2, 3, labelType=cv2.DIST_LABEL_PIXEL
         )
         first = np.zeros(int(labels.max()) + 1, dtype=np.int64)
-        rows = np.flatnonzero(raster.known.ravel())
+        rows = np.flatnonzero(coloured.ravel())
         first[labels.ravel()[rows]] = rows
         logs = logs.reshape(-1, 3)[first[labels]]
     r, g, b = np.moveaxis(logs, 2, 0)
@@ -125,9 +131,10 @@ def _evidence(channels: Narrow, known: Flags, depth: Narrow, along: int, step: f
             run = np.abs(cv2.boxFilter(response, -1, (1, along)))
             best = np.maximum(best, run)
     usual = float(np.median(best[known])) if known.any() else 1.0
-    seen = best / (best + max(usual, 2e-3) * 4)
+    seen = best / (best + max(usual, 2e-3) * 1.5)
     edges = np.maximum(seen, _steps(depth, along, step))
-    near = cv2.dilate(known.astype(np.uint8), np.ones((5, 5), dtype=np.uint8)) > 0
+    reach = 2 * round(BEYOND / step) + 1
+    near = cv2.dilate(known.astype(np.uint8), np.ones((reach, reach), dtype=np.uint8)) > 0
     edges = np.where(near, edges, 0.0).astype(np.float32)
     slack = max(round(SLACK / step), 1)
     return np.asarray(cv2.dilate(edges, np.ones((1, 2 * slack + 1), dtype=np.uint8)))

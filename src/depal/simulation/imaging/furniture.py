@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 
-from depal.domain import CellLayout, PalletStand, Storage
+import numpy as np
+
+from depal.domain import CellLayout, Fiducial, PalletStand, Storage
 from depal.geometry import OrientedBox, Pose, Vector3
+from depal.perception.calibration.markers import PLATE, plate_picture
+from depal.simulation.imaging.atlas import AtlasBuilder
 from depal.simulation.imaging.mesh import Mesh, cuboid, joined, rectangle
 
 FENCE = 0.05
@@ -58,6 +62,19 @@ def pallet(stand: PalletStand, skin: int, part: int) -> Mesh:
     ]
     boards = joined([cuboid(size, (skin,), part).moved(Pose(at)) for at, size in shapes])
     return boards.moved(stand.cell_from_pallet)
+
+
+def fiducials(markers: tuple[Fiducial, ...], builder: AtlasBuilder, part: int) -> list[Mesh]:
+    """Markers with their white rims, as flat plates; no plate has a back."""
+    return [
+        rectangle(
+            marker.cell_from_marker,
+            (marker.size * PLATE, marker.size * PLATE),
+            builder.add(np.repeat(plate_picture(marker.id)[..., None], 3, axis=2)),
+            part,
+        )
+        for marker in markers
+    ]
 
 
 @dataclass(frozen=True, slots=True)

@@ -144,4 +144,5 @@ def _still(layout: CellLayout, builder: AtlasBuilder, part: int) -> list[Mesh]:
         furniture.floor(layout, ground, line, part),
         furniture.pallet(layout.pallet, wood, part),
         *(furniture.solid(shape, metal, part) for shape in fixtures),
+        *furniture.fiducials(layout.fiducials, builder, part),
     ]

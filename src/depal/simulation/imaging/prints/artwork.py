@@ -98,16 +98,18 @@ def top(design: Design, size: tuple[float, float]) -> Bytes:
     if design.stock is Stock.GRAPHIC:
         canvas.disc(w * 0.5, h * 0.5, min(w, h) * 0.46, design.light)
         canvas.disc(w * 0.5, h * 0.5, min(w, h) * 0.41, design.accent)
-        canvas.text(
-            design.brand, (w / 2, h / 2), (min(w, h) * 0.7, h * 0.2), _ink_on(design.accent, design)
-        )
+        ink = _ink_on(design.accent, design)
+        words, across = f"{design.variety}   {design.contents}", min(w, h)
+        canvas.text(design.brand, (w / 2, h * 0.5 - across * 0.05), (across * 0.7, h * 0.2), ink)
+        canvas.text(words, (w / 2, h * 0.5 + across * 0.16), (across * 0.66, h * 0.09), ink)
         return canvas.finished()
     tape = min(50.0, h * 0.3)
     canvas.block(0, (h - tape) / 2, w, (h + tape) / 2, _blend(ground, (222, 200, 160), 0.55))
     canvas.block(0, h / 2 - 0.4, w, h / 2 + 0.4, _darker(ground))
     ink = _ink_of(design)
     canvas.text(design.brand.upper(), (w / 2, h * 0.17), (w * 0.5, h * 0.14), ink)
-    canvas.text(design.variety, (w / 2, h * 0.86), (w * 0.4, h * 0.1), ink)
+    words = f"{design.variety}   {design.contents}"
+    canvas.text(words, (w / 2, h * 0.86), (w * 0.6, h * 0.1), ink)
     return canvas.finished()
 
 

@@ -1,0 +1,121 @@
+"""What `depal see` looks at: a recorded frame, or a look of the simulated cell."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from depal.app.run.inputs import cell_of
+from depal.domain import DeliveryLine
+from depal.errors import SettingError, did_you_mean
+from depal.geometry import Vector3
+from depal.logistics import read_delivery
+from depal.perception.book import read_book
+from depal.perception.frames import frame_folders, read_frame_folder
+from depal.perception.pictures import PictureBook
+from depal.ports import Frame
+from depal.simulation.imaging.photographs import book_of
+from depal.simulation.scenes import Severity, scene
+
+SIMULATED = "simulated:"
+"""A reference that begins so means the simulated cell."""
+
+FORM = f"{SIMULATED}DELIVERY[:SEED[:SEVERITY]]"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Given:
+    """The input of one look.
+
+    Attributes:
+        source: how it was asked for.
+        names: of the cameras; one empty name where there is one frame.
+        frames: one of each camera.
+        placed: by camera, whether the frame knows where it was taken from.
+        note: what may stand there; None where nobody knows.
+        sizes: edges of the boxes that may stand there; None where nobody knows [m].
+        book: pictures of products; empty where there are none.
+        noted: what the note is called; empty without one.
+    """
+
+    source: str
+    names: tuple[str, ...]
+    frames: tuple[Frame, ...]
+    placed: tuple[bool, ...]
+    note: tuple[DeliveryLine, ...] | None
+    sizes: tuple[Vector3, ...] | None
+    book: PictureBook
+    noted: str
+
+
+def given(reference: str, note: str | None = None, book: Path | None = None) -> Given:
+    """Reads everything that a look needs.
+
+    Args:
+        reference: a frame's folder, a folder of frames of one look, or a simulated look.
+        note: a delivery whose note says what may stand there.
+        book: the folder of a picture book.
+
+    Raises:
+        InputError: something cannot be used.
+    """
+    lines = None if note is None else read_delivery(note).lines
+    pictures = None if book is None else read_book(book)
+    if reference.startswith(SIMULATED):
+        return _simulated(reference, note, lines, pictures)
+    folders = frame_folders(Path(reference))
+    recorded = [read_frame_folder(folder) for folder in folders]
+    sizes = [size for frame in recorded for size in frame.sizes or ()]
+    return Given(
+        reference,
+        tuple(folder.name for folder in folders) if len(folders) > 1 else ("",),
+        tuple(frame.as_frame() for frame in recorded),
+        tuple(frame.cell_from_camera is not None for frame in recorded),
+        lines,
+        tuple(dict.fromkeys(sizes)) or None,
+        pictures or PictureBook(),
+        note or "",
+    )
+
+
+def _simulated(
+    reference: str,
+    note: str | None,
+    lines: tuple[DeliveryLine, ...] | None,
+    book: PictureBook | None,
+) -> Given:
+    """A look of the default cell; what stands there is known unless another note is named."""
+    name, seed, severity = _parts(reference)
+    delivery = read_delivery(name)
+    layout = cell_of("default")
+    made = scene(delivery, layout, seed, severity)
+    products = [line.product for line in delivery.lines]
+    return Given(
+        reference,
+        tuple(camera.name for camera in layout.cameras),
+        made.frames,
+        (True,) * len(made.frames),
+        made.note.lines if lines is None else lines,
+        None,
+        book_of(products, seed, known_share=1.0) if book is None else book,
+        note or delivery.id,
+    )
+
+
+def _parts(reference: str) -> tuple[str, int, Severity]:
+    """Delivery, seed and severity."""
+    name, *rest = reference.removeprefix(SIMULATED).split(":")
+    seed, severity = _filled(rest, ("0", Severity.NORMAL.value))
+    if not name or len(rest) > 2:  # noqa: PLR2004 - seed and severity
+        raise SettingError("FRAME", f"{reference!r} is no simulated look", FORM)
+    if not (seed.isascii() and seed.isdigit()):
+        raise SettingError("FRAME", f"{seed!r} is no seed", f"a whole number in {FORM}")
+    if severity not in tuple(Severity):
+        raise SettingError(
+            "FRAME", f"unknown severity {severity!r}", exists=did_you_mean(severity, Severity)
+        )
+    return name, int(seed), Severity(severity)
+
+
+def _filled(given: Sequence[str], defaults: tuple[str, str]) -> tuple[str, str]:
+    first, second = (*given, *defaults[len(given) :])[:2]
+    return first, second

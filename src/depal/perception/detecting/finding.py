@@ -1,0 +1,153 @@
+"""From a raster to the faces in it."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import numpy.typing as npt
+
+from depal.perception.detecting.expected import Expected
+from depal.perception.faces import Facing, Name, Raster, Rectangle
+from depal.perception.packing import packed
+from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
+from depal.perception.scoring import FaceScore, described, shipped_score
+from depal.perception.seams import Seams, directions_of, seams_of
+
+Floats = npt.NDArray[np.float64]
+
+DIRECTIONS = {Facing.FRONT: 3, Facing.TOP: 5}
+"""Edges are looked for in so many directions at the most."""
+
+MOST = 300
+"""So many candidates of one raster are weighed against each other."""
+
+NEAR = 0.016
+"""A print belongs to a candidate whose sides are all within this of its own [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Printed:
+    """A place where a product's print was seen.
+
+    Attributes:
+        rectangle: where.
+        name: what.
+    """
+
+    rectangle: Rectangle
+    name: Name
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """A face on a raster.
+
+    Attributes:
+        rectangle: where.
+        odds: the logarithm of the odds that it is one face.
+        known: share of it that was seen.
+        slopes: of its depth along u and v.
+        name: what its print may say.
+    """
+
+    rectangle: Rectangle
+    odds: float
+    known: float
+    slopes: tuple[float, float] = (0.0, 0.0)
+    name: Name | None = None
+
+    @property
+    def probability(self) -> float:
+        """That it is one face."""
+        return 1.0 / (1.0 + math.exp(-self.odds))
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Finder:
+    """Finds faces.
+
+    Attributes:
+        score: how likely a rectangle is a face.
+        eager: added to every candidate's logarithm of odds before they are weighed against each
+            other: so that what is not sure is found too, where nothing else explains the place.
+    """
+
+    score: FaceScore = field(default_factory=shipped_score)
+    eager: float = 0.0
+
+    def faces(
+        self, raster: Raster, expected: Expected, prints: Sequence[Printed] | None
+    ) -> tuple[Found, ...]:
+        """The faces in a raster, none overlapping another.
+
+        Args:
+            raster: what is seen.
+            expected: what the boxes may measure.
+            prints: where prints were seen; None where none was looked for.
+        """
+        turns = directions_of(raster, DIRECTIONS[raster.facing])
+        seams = [seams_of(raster, turn) for turn in turns]
+        sizes = expected.faces(raster.facing)
+        candidates, agreed = candidates_of(seams, sizes, prints)
+        if not len(candidates):
+            return ()
+        shares = agreed.max(axis=1) if agreed.shape[1] else np.full(len(candidates), -1.0)
+        shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
+        features = described(candidates.measured, candidates.sizes, sizes, shares)
+        odds = self.score.log_odds(features)
+        kept = best(candidates, odds, MOST)
+        chosen = [kept[k] for k in packed(candidates[kept].rectangles, odds[kept] + self.eager)]
+        return tuple(
+            self._found(candidates, int(row), float(odds[row]), agreed[row], prints or ())
+            for row in chosen
+        )
+
+    def _found(
+        self,
+        candidates: Candidates,
+        row: int,
+        odds: float,
+        agreed: Floats,
+        prints: Sequence[Printed],
+    ) -> Found:
+        name = None
+        if agreed.size and agreed.max() > 0.0:
+            name = prints[int(agreed.argmax())].name
+        measured = candidates.measured[row]
+        rectangle = Rectangle(*candidates.values[row].tolist())
+        slopes = (float(measured[17]), float(measured[18]))
+        return Found(rectangle, odds, float(measured[10]), slopes, name)
+
+
+def candidates_of(
+    seams: Sequence[Seams],
+    sizes: Sequence[tuple[float, float]],
+    prints: Sequence[Printed] | None,
+) -> tuple[Candidates, Floats]:
+    """Candidates of both kinds, and how well prints agree with them.
+
+    Args:
+        seams: the evidence of edges in each direction.
+        sizes: widths and heights of faces that are expected [m].
+        prints: where prints were seen; None where none was looked for.
+
+    Returns:
+        The candidates, and (n, prints) how well each print's place agrees, in [0, 1].
+    """
+    lines = by_lines(seams, sizes)
+    if not prints:
+        return lines, np.zeros((len(lines), 0))
+    printed = placed(seams, [each.rectangle for each in prints])
+    every = Candidates.joined([printed, lines])
+    return every, _agreement(every, printed, np.array([each.name.score for each in prints]))
+
+
+def _agreement(candidates: Candidates, printed: Candidates, scores: Floats) -> Floats:
+    """(n, prints): the print's own score where it lies on the candidate, less the farther off."""
+    u, v, w, h, turn, _ = candidates.values.T[:, :, None]
+    pu, pv, pw, ph, pt, _ = printed.values.T[:, None, :]
+    along = np.abs(u - pu) + np.abs(w - pw) / 2
+    across = np.abs(v - pv) + np.abs(h - ph) / 2
+    away = np.maximum(along, across) + np.abs(turn - pt) * (w + h) / 4
+    return np.asarray(np.where(away < NEAR, scores * (1.0 - 0.5 * away / NEAR), -1.0))

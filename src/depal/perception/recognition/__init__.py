@@ -1,0 +1,17 @@
+"""Recognition by print: where products' pictures appear, and what a face's print says."""
+
+from depal.perception.recognition.identity import Identity, Limits, Refinement, identify
+from depal.perception.recognition.patches import Patch, patch_of
+from depal.perception.recognition.prints import Gallery, Print, gallery_of
+
+__all__ = [
+    "Gallery",
+    "Identity",
+    "Limits",
+    "Patch",
+    "Print",
+    "Refinement",
+    "gallery_of",
+    "identify",
+    "patch_of",
+]

@@ -1,0 +1,218 @@
+"""Which product a face belongs to, by its print, and whether that may be believed."""
+
+import math
+from dataclasses import dataclass
+
+from depal.domain import Gtin
+from depal.perception.faces import Facing, Name
+from depal.perception.recognition.agreement import Agreement, agreement, cosine_of
+from depal.perception.recognition.features import Features
+from depal.perception.recognition.patches import Patch
+from depal.perception.recognition.prints import COARSE, Gallery, Print
+from depal.perception.recognition.registration import (
+    Motion,
+    brought_back,
+    found_at,
+    registered,
+)
+
+SIZES = 0.018
+"""Edges of a face are known so well [m]."""
+
+LEAST = 0.35
+"""Cosine below which a print is not what is seen; coarse."""
+
+RIVALS = 6
+"""So many prints are looked at closely at the most."""
+
+BEHIND = 0.25
+"""A print whose coarse cosine is so far below the best one's is no rival."""
+
+PRINTED = 0.0025
+"""The print sits so exactly on a box, two boxes against each other: standard deviation [m]."""
+
+TURNED = math.radians(0.15)
+"""The same for its turn [rad]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """When a name may be believed; measured on simulated boxes of seeds kept for that.
+
+    Attributes:
+        cosine: of the whole face, at least.
+        worst: of the worst window, at most.
+        tone: difference of a window's brightness or colour, at most.
+        seen: share of the print's contrast that must be seen.
+        contrast: of a print that says enough: squared, over its area [m^2].
+        other: worst window of a rival that is excluded, at least.
+        times: the rival's worst window against the best one's, at least.
+        apart: a rival whose cosine is so far below is excluded too.
+    """
+
+    cosine: float = 0.9
+    worst: float = 0.12
+    tone: float = 0.3
+    seen: float = 0.9
+    contrast: float = 4e-4
+    other: float = 0.2
+    times: float = 2.5
+    apart: float = 0.15
+
+
+@dataclass(frozen=True, slots=True)
+class Refinement:
+    """Where the print says that the face is.
+
+    Attributes:
+        du: its middle along its width, from where it was thought to be [m].
+        dv: along its height, downward [m].
+        turn: its turn, clockwise, from what it was thought to be [rad].
+        sigma: standard deviations of the three; of the print's place on the box, above all.
+    """
+
+    du: float
+    dv: float
+    turn: float
+    sigma: tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """What the print on a face says.
+
+    Attributes:
+        name: the best one.
+        refined: where it says that the face is.
+        worst: how much the worst window differs from the print, 0 where nothing differs.
+        tone: the largest difference of a window's brightness or colour.
+        seen: share of the print's contrast that was seen.
+        rivals: products that the face does not exclude.
+    """
+
+    name: Name
+    refined: Refinement
+    worst: float
+    tone: float
+    seen: float
+    rivals: tuple[Gtin, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Fit:
+    """A print laid over a face."""
+
+    printed: Print
+    quarter: int
+    coarse: float
+    motion: Motion
+    agreed: Agreement
+
+
+def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Identity | None:
+    """Names a face.
+
+    Args:
+        patch: the face, laid flat.
+        gallery: what may come.
+        limits: when a name may be believed.
+
+    Returns:
+        The best name, certain or not; None where no print of this size resembles the face.
+    """
+    limits = limits or Limits()
+    fits = _fits(patch, gallery)
+    if not fits:
+        return None
+    best = max(fits, key=lambda fit: fit.agreed.cosine - fit.agreed.worst)
+    gtin = best.printed.product.gtin
+    others = [fit for fit in fits if fit.printed.product.gtin != gtin]
+    rivals = tuple(fit.printed.product.gtin for fit in others if not _excluded(fit, best, limits))
+    certain = not rivals and _believed(best, limits)
+    score = min(max(best.agreed.cosine, 0.0), 1.0)
+    name = Name(gtin, best.printed.side, score, certain, best.quarter)
+    worst, tone = best.agreed.worst, best.agreed.worst_tone
+    return Identity(name, _refined(best), worst, tone, best.agreed.seen, rivals)
+
+
+def fitting(size: tuple[float, float], facing: Facing, gallery: Gallery) -> list[tuple[Print, int]]:
+    """Prints that a face of this size may bear, and their quarter turns."""
+    found = list[tuple[Print, int]]()
+    for printed in gallery.prints:
+        if printed.facing is not facing:
+            continue
+        for quarter in range(4) if facing is Facing.TOP else range(1):
+            wide, high = printed.size if quarter % 2 == 0 else printed.size[::-1]
+            if abs(wide - size[0]) <= SIZES and abs(high - size[1]) <= SIZES:
+                found.append((printed, quarter))
+    return found
+
+
+def _fits(patch: Patch, gallery: Gallery) -> list[_Fit]:
+    """The prints that resemble a face most, laid over it."""
+    candidates = fitting(patch.size, patch.facing, gallery)
+    if not candidates:
+        return []
+    seen = patch.features
+    turned = {quarter: seen.turned(-quarter) for quarter in {q for _, q in candidates}}
+    small = {quarter: features.thinned(COARSE) for quarter, features in turned.items()}
+    firsts = [
+        (*found_at(small[quarter], printed.coarse), printed, quarter)
+        for printed, quarter in candidates
+    ]
+    firsts.sort(key=lambda first: -first[0])
+    top = firsts[0][0]
+    kept = [first for first in firsts if first[0] > max(LEAST, top - BEHIND)][:RIVALS]
+    fits, level, start = list[_Fit](), -1, dict[int, Motion]()
+    for coarse, motion, printed, quarter in kept:
+        begin = start.get(quarter, motion)
+        fit, level = _laid(turned[quarter], printed, quarter, (coarse, begin), level)
+        start.setdefault(quarter, fit.motion)
+        fits.append(fit)
+    return fits
+
+
+def _laid(
+    seen: Features, printed: Print, quarter: int, first: tuple[float, Motion], level: int
+) -> tuple[_Fit, int]:
+    """A print laid over a face, and the blur that suits both."""
+    coarse, begin = first
+    motion = registered(seen, printed.levels[max(level, 0)], begin, every=2)
+    back = brought_back(seen, motion, printed.levels[0].weights.shape)
+    if level < 0:
+        cosines = [cosine_of(back, features) for features in printed.levels]
+        level = cosines.index(max(cosines))
+    agreed = agreement(back, printed.levels[level])
+    return _Fit(printed, quarter, coarse, motion, agreed), level
+
+
+def _excluded(rival: _Fit, best: _Fit, limits: Limits) -> bool:
+    """Whether a face cannot bear a rival's print, when it bears the best one's."""
+    if rival.agreed.cosine < best.agreed.cosine - limits.apart:
+        return True
+    worst = rival.agreed.worst
+    return worst > limits.other and worst > limits.times * best.agreed.worst
+
+
+def _believed(fit: _Fit, limits: Limits) -> bool:
+    """Whether a print agrees so well that it is no other product's, unknown siblings included."""
+    agreed = fit.agreed
+    return (
+        agreed.cosine >= limits.cosine
+        and agreed.worst <= limits.worst
+        and agreed.worst_tone <= limits.tone
+        and agreed.seen >= limits.seen
+        and fit.printed.contrast >= limits.contrast
+    )
+
+
+def _refined(fit: _Fit) -> Refinement:
+    """The place of a face by its print, along the face's own axes."""
+    x, y = fit.motion.middle
+    for _ in range(fit.quarter % 4):
+        x, y = -y, x
+    sx, sy, st = fit.motion.sigma
+    if fit.quarter % 2 == 1:
+        sx, sy = sy, sx
+    sigma = (math.hypot(sx, PRINTED), math.hypot(sy, PRINTED), math.hypot(st, TURNED))
+    return Refinement(x, y, -fit.motion.turn, sigma)

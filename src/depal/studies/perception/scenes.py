@@ -1,0 +1,131 @@
+"""Simulated scenes that perception is measured on, none of them used to tune it."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+from depal.cell.files import shipped_cell
+from depal.domain import Delivery, DeliveryLine
+from depal.geometry import Vector3
+from depal.logistics import shipped_deliveries
+from depal.perception.faces import Look
+from depal.perception.pictures import PictureBook
+from depal.ports import Frame
+from depal.simulation.imaging.photographs import book_of
+from depal.simulation.scenes import Kind, Scene, Severity, random_delivery, scene
+from depal.studies.perception.score import Score, scored
+from depal.studies.perception.truth import truth_of
+
+FIRST_SEED = 2_000_000
+"""Of the bench; what is trained and tuned uses seeds below a million."""
+
+REAL = 4
+"""Every so many-th scene is of a real delivery that ships; the others are of random products."""
+
+FOREIGN = 0.18
+"""So many boxes are replaced by products that no note and no picture book knows."""
+
+
+class Perceive(Protocol):
+    """Perception, as it is measured."""
+
+    def __call__(
+        self,
+        frames: Sequence[Frame],
+        expected: tuple[DeliveryLine, ...] | None,
+        book: PictureBook,
+        before: Look | None = None,
+        sizes: tuple[Vector3, ...] | None = None,
+    ) -> Look:
+        """What is found in the frames of one look, one per camera."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A scene that is to be looked at.
+
+    Attributes:
+        severity: how hard.
+        kind: what has happened to the stack.
+        seed: of everything in it.
+        noted: whether perception is told the note.
+    """
+
+    severity: Severity
+    kind: Kind
+    seed: int
+    noted: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What two looks at a scene are worth.
+
+    Attributes:
+        piece: the scene.
+        visible: how many faces must be found.
+        score: of the first look.
+        first: what the first look took [s].
+        later: what a look took that knew the first [s].
+    """
+
+    piece: Piece
+    visible: int
+    score: Score
+    first: float
+    later: float
+
+
+def pieces(severity: Severity, scenes: int, seed: int = 0, *, noted: bool = True) -> list[Piece]:
+    """Scenes of one severity, every kind in its turn.
+
+    Args:
+        severity: of all.
+        scenes: how many.
+        seed: another one gives other scenes.
+        noted: whether perception is told the note.
+    """
+    kinds = tuple(Kind)
+    first = FIRST_SEED + seed * 100_000
+    return [Piece(severity, kinds[k % len(kinds)], first + k, noted=noted) for k in range(scenes)]
+
+
+def delivery_of(seed: int) -> Delivery:
+    """The delivery of a scene: real for some, else random."""
+    number, real = divmod(seed, REAL)
+    if real:
+        return random_delivery(seed)
+    shipped = [delivery for delivery in shipped_deliveries() if delivery.stack]
+    return shipped[number % len(shipped)]
+
+
+def scene_of(piece: Piece, delivery: Delivery | None = None) -> Scene:
+    """The pictures of a piece, and what is true of them."""
+    stacked = delivery or delivery_of(piece.seed)
+    return scene(stacked, shipped_cell(), piece.seed, piece.severity, piece.kind, FOREIGN)
+
+
+def measure(piece: Piece, perceive: Perceive, delivery: Delivery | None = None) -> Measured:
+    """Looks twice at a scene.
+
+    Args:
+        piece: which.
+        perceive: what is measured.
+        delivery: whose stack it is; the piece's own where none is given.
+    """
+    stacked = delivery or delivery_of(piece.seed)
+    made = scene_of(piece, stacked)
+    products = [line.product for line in stacked.lines]
+    truth = truth_of(made, products)
+    book = book_of(products, piece.seed, known_share=1.0)
+    note = made.note.lines if piece.noted else None
+    begun = time.perf_counter()
+    look = perceive(made.frames, note, book)
+    first = time.perf_counter() - begun
+    begun = time.perf_counter()
+    perceive(made.frames, note, book, look)
+    later = time.perf_counter() - begun
+    visible = sum(face.counts for face in truth.faces)
+    return Measured(piece, visible, scored(look, truth), first, later)
