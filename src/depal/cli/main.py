@@ -11,6 +11,7 @@ from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
+from depal.cli.calibrate import calibrate
 from depal.cli.cell import cell
 from depal.cli.delivery import delivery
 from depal.cli.output import console
@@ -34,6 +35,7 @@ app.add_typer(cell, name="cell")
 app.add_typer(tasks, name="tasks")
 app.command()(run)
 app.command()(replay)
+app.command()(calibrate)
 
 
 def main() -> None:
