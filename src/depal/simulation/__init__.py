@@ -3,6 +3,7 @@
 from depal.simulation.cases import Case, cases_of
 from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.contacts import Collision
+from depal.simulation.imaging.severity import Severity
 from depal.simulation.losses import Cause, Loss
 from depal.simulation.people import SimulatedPerson
 from depal.simulation.referee import Referee, Summary, Truth
@@ -17,6 +18,7 @@ __all__ = [
     "Collision",
     "Loss",
     "Referee",
+    "Severity",
     "SightSettings",
     "SimulatedCell",
     "SimulatedPerson",

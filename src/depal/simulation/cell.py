@@ -15,6 +15,7 @@ from depal.simulation.devices import (
 from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
+from depal.simulation.imaging.severity import Severity
 from depal.simulation.people import Policy, SimulatedPerson
 from depal.simulation.referee import Referee
 from depal.simulation.stacking import stacked
@@ -37,7 +38,7 @@ class SimulatedCell:
         sight: behind `Sight`, from the truth.
         referee: for reports and tests only.
         reader: behind `BarcodeReader`.
-        camera: behind `Camera`, the first of the layout's.
+        cameras: each behind `Camera`, in the order of the layout.
     """
 
     world: World
@@ -49,7 +50,12 @@ class SimulatedCell:
     sight: TruthSight
     referee: Referee
     reader: BarcodeReader
-    camera: Camera
+    cameras: tuple[SimulatedCamera, ...]
+
+    @property
+    def camera(self) -> Camera:
+        """The first camera of the layout."""
+        return self.cameras[0]
 
     @property
     def witness(self) -> Witness:
@@ -65,6 +71,7 @@ def build(
     clock: Clock | None = None,
     start: float = 0.0,
     sight: SightSettings | None = None,
+    severity: Severity = Severity.NORMAL,
     policy: Policy | None = None,
 ) -> SimulatedCell:
     """Builds a cell with a delivery on its pallet.
@@ -76,6 +83,7 @@ def build(
         clock: the loop's time where nothing else is said.
         start: the time at the beginning [s].
         sight: how good the perception from the truth is.
+        severity: how far cameras and prints are from ideal.
         policy: how the worker answers; None for what is so.
 
     Returns:
@@ -98,5 +106,5 @@ def build(
         TruthSight(world, time, sight),
         Referee(world),
         SimulatedReader(stage, time),
-        SimulatedCamera(stage, time),
+        tuple(SimulatedCamera(stage, time, mount, severity) for mount in layout.cameras),
     )

@@ -16,13 +16,16 @@ from depal.geometry import loop_kernel
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 Bytes = npt.NDArray[np.uint8]
+Depths = npt.NDArray[np.float64] | npt.NDArray[np.float32]
 
 SHARP = 0.8
 """A texture's next coarser level is taken where a pixel covers 1 / SHARP of its texels."""
 
 
 @loop_kernel
-def cover(corners: Floats, lens: Floats, nearest: Floats, owner: npt.NDArray[np.int32]) -> None:
+def cover(
+    corners: Floats, lens: Floats, nearest: Depths, owner: npt.NDArray[np.int32], first: int
+) -> None:
     """Finds what each pixel sees; only the outer sides of triangles are seen.
 
     Args:
@@ -30,6 +33,7 @@ def cover(corners: Floats, lens: Floats, nearest: Floats, owner: npt.NDArray[np.
         lens: (5,) fx, fy, cx, cy [pixel], and the nearest depth that is seen [m].
         nearest: (h, w) 1 / depth of the nearest surface [1/m]; updated.
         owner: (h, w) index of its triangle; updated.
+        first: the number of the first of these triangles.
     """
     height, width = nearest.shape
     fx, fy, cx, cy, near = lens[0], lens[1], lens[2], lens[3], lens[4]
@@ -46,15 +50,15 @@ def cover(corners: Floats, lens: Floats, nearest: Floats, owner: npt.NDArray[np.
         left, right, top, bottom = _bounds(p, lens)
         zx, zy = nx / (d * fx), ny / (d * fy)
         z0 = nz / d - zx * cx - zy * cy
-        first, last = max(math.ceil(left), 0), min(math.floor(right), width - 1)
+        start, end = max(math.ceil(left), 0), min(math.floor(right), width - 1)
         for y in range(max(math.ceil(top), 0), min(math.floor(bottom), height - 1) + 1):
-            low, high = _ends(p, lens, y, float(first), float(last))
+            low, high = _ends(p, lens, y, float(start), float(end))
             base = z0 + zy * y
             for x in range(math.ceil(low), math.floor(high) + 1):
                 inverse = base + zx * x
                 if inverse > nearest[y, x] and inverse * near <= 1.0:
                     nearest[y, x] = inverse
-                    owner[y, x] = t
+                    owner[y, x] = first + t
 
 
 @loop_kernel
@@ -95,7 +99,7 @@ def _bounds(p: Floats, lens: Floats) -> tuple[float, float, float, float]:
 @loop_kernel
 def paint(
     owner: npt.NDArray[np.int32],
-    nearest: Floats,
+    nearest: Depths,
     fields: Floats,
     skins: Ints,
     table: Ints,
@@ -129,23 +133,40 @@ def paint(
             u = (f[0, 0] * rx + f[0, 1] * ry + f[0, 2]) * z + f[0, 3]
             v = (f[1, 0] * rx + f[1, 1] * ry + f[1, 2]) * z + f[1, 3]
             bright = (f[2, 0] * rx + f[2, 1] * ry + f[2, 2]) * z + f[2, 3]
-            covered, level, skin = f[3, 0] * z / lens[0] * SHARP, 0, skins[t]
-            while covered > 1.0 and level < table.shape[1] - 1:
-                covered, level = covered / 2, level + 1
-            start, across, down = (
-                table[skin, level, 0],
-                table[skin, level, 1],
-                table[skin, level, 2],
-            )
-            x = min(max(u * across - 0.5, 0.0), across - 1.0)
-            y = min(max(v * down - 0.5, 0.0), down - 1.0)
-            x0, y0 = int(x), int(y)
-            sx, sy = x - x0, y - y0
-            here = start + y0 * across + x0
-            right = 1 if x0 + 1 < across else 0
-            below = across if y0 + 1 < down else 0
+            texel = texel_at(table, texels, skins[t], u, v, f[3, 0] * z / lens[0])
             for c in range(3):
-                upper = texels[here, c] * (1 - sx) + texels[here + right, c] * sx
-                lower = texels[here + below, c] * (1 - sx) + texels[here + below + right, c] * sx
-                value = (upper * (1 - sy) + lower * sy) * bright
-                colour[row, column, c] = int(min(max(value, 0.0), 255.0))
+                colour[row, column, c] = int(min(max(texel[c] * bright, 0.0), 255.0))
+
+
+@loop_kernel
+def texel_at(
+    table: Ints, texels: Bytes, skin: int, u: float, v: float, covered: float
+) -> tuple[float, float, float]:
+    """The colour of a texture at a place, from the level that suits how many texels a pixel covers.
+
+    Args:
+        table: (textures, levels, 3) first texel, width and height of each level.
+        texels: (m, 3) of all textures, row by row.
+        skin: which texture.
+        u: from its left, in [0, 1].
+        v: from its top, in [0, 1].
+        covered: texels of the finest level along a pixel's edge.
+    """
+    covered, level = covered * SHARP, 0
+    while covered > 1.0 and level < table.shape[1] - 1:
+        covered, level = covered / 2, level + 1
+    start, across, down = table[skin, level, 0], table[skin, level, 1], table[skin, level, 2]
+    x = min(max(u * across - 0.5, 0.0), across - 1.0)
+    y = min(max(v * down - 0.5, 0.0), down - 1.0)
+    x0, y0 = int(x), int(y)
+    sx, sy = x - x0, y - y0
+    here = start + y0 * across + x0
+    right = 1 if x0 + 1 < across else 0
+    below = across if y0 + 1 < down else 0
+    a, b, c, d = (1 - sx) * (1 - sy), sx * (1 - sy), (1 - sx) * sy, sx * sy
+    i, j, k, m = here, here + right, here + below, here + below + right
+    return (
+        texels[i, 0] * a + texels[j, 0] * b + texels[k, 0] * c + texels[m, 0] * d,
+        texels[i, 1] * a + texels[j, 1] * b + texels[k, 1] * c + texels[m, 1] * d,
+        texels[i, 2] * a + texels[j, 2] * b + texels[k, 2] * c + texels[m, 2] * d,
+    )

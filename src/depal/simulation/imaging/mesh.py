@@ -67,13 +67,14 @@ class Mesh:
 
     def without(self, parts: Ints) -> "Mesh":
         """The triangles of all other parts."""
-        return self._chosen(~np.isin(self.parts, parts))
+        return self.chosen(~np.isin(self.parts, parts))
 
     def only(self, parts: Ints) -> "Mesh":
         """The triangles of these parts."""
-        return self._chosen(np.isin(self.parts, parts))
+        return self.chosen(np.isin(self.parts, parts))
 
-    def _chosen(self, kept: npt.NDArray[np.bool_]) -> "Mesh":
+    def chosen(self, kept: npt.NDArray[np.bool_] | Ints) -> "Mesh":
+        """The triangles that are kept, by a mask or their numbers."""
         return Mesh(
             self.corners[kept],
             self.normals[kept],

@@ -66,17 +66,27 @@ def render(
     corners = mesh.corners @ turn.T + shift
     nearest = np.zeros((height, width))
     triangles = np.full((height, width), -1, dtype=np.int32)
-    cover(corners, lens.values, nearest, triangles)
+    cover(corners, lens.values, nearest, triangles, 0)
     colour = np.empty((height, width, 3), dtype=np.uint8)
     colour[:] = sky
-    fields = _fields(mesh, corners, atlas, light or Light())
+    fields = fields_of(mesh, corners, atlas, (light or Light()).on(mesh.normals))
     paint(triangles, nearest, fields, mesh.skins, atlas.table, atlas.texels, lens.values, colour)
     return Picture(colour, nearest, triangles, mesh)
 
 
-def _fields(mesh: Mesh, corners: Floats, atlas: Atlas, light: Light) -> Floats:
-    """u, v and brightness as linear functions of the place; and texels per metre: (n, 4, 4)."""
-    values = np.concatenate((mesh.uv, light.on(mesh.normals)[..., None]), axis=2)
+def fields_of(mesh: Mesh, corners: Floats, atlas: Atlas, bright: Floats) -> Floats:
+    """u, v and brightness as linear functions of the place; and texels per metre.
+
+    Args:
+        mesh: triangles.
+        corners: theirs in the camera's frame, (n, 3, 3) [m].
+        atlas: their textures.
+        bright: brightness at the corners, (n, 3).
+
+    Returns:
+        (n, 4, 4) as `paint` takes them.
+    """
+    values = np.concatenate((mesh.uv, bright[..., None]), axis=2)
     a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normal = np.cross(a, b)
     square = np.maximum((normal * normal).sum(axis=1), 1e-30)

@@ -9,7 +9,7 @@ from depal.geometry import OrientedBox
 from depal.simulation.cases import Case
 from depal.simulation.imaging import furniture
 from depal.simulation.imaging.atlas import Atlas, AtlasBuilder
-from depal.simulation.imaging.mesh import Mesh, capsule, cuboid, joined
+from depal.simulation.imaging.mesh import SIDES, Mesh, capsule, cuboid, joined
 from depal.simulation.imaging.prints import PrintedBoxes
 from depal.simulation.world import Snapshot, World
 
@@ -55,20 +55,46 @@ class CellScene:
             walls += sides
         self.walls = tuple(walls)
         self._mesh = joined(meshes)
+        self._faces = _faces(self._mesh, self.boxes)
+        self._moment: tuple[tuple[object, ...], Mesh, Ints] | None = None  # cameras look at once
         self.atlas: Atlas = builder.build()
 
     def at(self, snapshot: Snapshot) -> Mesh:
         """Everything that is there at that moment, in the cell frame."""
+        return self._placed(self._mesh.without(self._gone(snapshot)), snapshot)
+
+    def moving(self, snapshot: Snapshot) -> tuple[Mesh, Ints]:
+        """Boxes, arm and tool at that moment, and the box's face `6 i + side` of each triangle.
+
+        A triangle of the arm or the tool has a negative face.
+        """
+        moment = (snapshot.boxes.tobytes(), snapshot.arm.tobytes(), snapshot.removed)
+        if self._moment is None or self._moment[0] != (*moment, snapshot.folded):
+            gone = np.isin(self._mesh.parts, self._gone(snapshot))
+            kept = ~gone & (self._mesh.parts <= self._folded)
+            mesh = self._placed(self._mesh.chosen(kept), snapshot)
+            self._moment = ((*moment, snapshot.folded), mesh, self._faces[kept])
+        return self._moment[1:]
+
+    def still(self, snapshot: Snapshot) -> Mesh:
+        """All the rest of what is there at that moment."""
+        return self._mesh.without(self._gone(snapshot)).without(np.arange(self._folded + 1))
+
+    def _gone(self, snapshot: Snapshot) -> Ints:
+        """The parts that are not there."""
+        gone = [*snapshot.removed, self._unfolded if snapshot.folded else self._folded]
+        for name, trolley in snapshot.bays.items():
+            if trolley is None:
+                gone += self._bays[name]
+        return np.array(gone)
+
+    def _placed(self, mesh: Mesh, snapshot: Snapshot) -> Mesh:
         turns = np.broadcast_to(np.eye(3), (self._parts, 3, 3)).copy()
         shifts = np.zeros((self._parts, 3))
         moving = np.concatenate((snapshot.boxes, snapshot.arm, snapshot.arm[-1:]))
         turns[: len(moving)] = rotations(moving[:, 3:])
         shifts[: len(moving)] = moving[:, :3]
-        gone = [*snapshot.removed, self._unfolded if snapshot.folded else self._folded]
-        for name, trolley in snapshot.bays.items():
-            if trolley is None:
-                gone += self._bays[name]
-        return self._mesh.without(np.array(gone)).placed(turns, shifts)
+        return mesh.placed(turns, shifts)
 
     def mobile(self, mesh: Mesh) -> Mesh:
         """Of a moment's triangles the boxes, the arm and the tool alone."""
@@ -92,7 +118,11 @@ class Stage:
 
     def now(self) -> Mesh:
         """The world as it stands."""
-        return self.scene.at(self.world.snapshot())
+        return self.scene.at(self.snapshot())
+
+    def snapshot(self) -> Snapshot:
+        """Where everything is now."""
+        return self.world.snapshot()
 
 
 def rotations(quaternions: Floats) -> Floats:
@@ -104,6 +134,14 @@ def rotations(quaternions: Floats) -> Floats:
         [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
     ]
     return np.asarray(np.array(rows).transpose(2, 0, 1))
+
+
+def _faces(mesh: Mesh, boxes: int) -> Ints:
+    """The box's face `6 i + side` of each triangle, negative for what is no box's."""
+    normal = mesh.normals.mean(axis=1)
+    axis = np.abs(normal).argmax(axis=1)
+    behind = np.take_along_axis(normal, axis[:, None], axis=1)[:, 0] < 0.0
+    return np.where(mesh.parts < boxes, mesh.parts * len(SIDES) + 2 * axis + behind, -1)
 
 
 def _arm(layout: CellLayout, builder: AtlasBuilder, part: int) -> list[Mesh]:

@@ -8,6 +8,7 @@ import numpy.typing as npt
 from depal.geometry import Vector3, loop_kernel
 from depal.simulation.imaging.kernels import cover
 from depal.simulation.imaging.lens import Lens, Light, aimed
+from depal.simulation.imaging.mesh import Mesh
 from depal.simulation.imaging.raster import Picture
 
 Floats = npt.NDArray[np.float64]
@@ -35,21 +36,42 @@ def add_shadows(picture: Picture, lens: Lens, light: Light, middle: Vector3, rad
         middle: of the region that throws shadows [m].
         radius: of the region [m].
     """
-    towards = np.array(light.towards) / np.linalg.norm(light.towards)
-    x, y, z = (np.array(middle) + AWAY * towards).tolist()
-    sun = Lens.looking(aimed((x, y, z), middle), (SIDE, SIDE), 2 * math.atan(radius / AWAY), 1.0)
-    sun_from_cell = sun.cell_from_camera.inverse
-    corners = picture.mesh.corners @ np.array(sun_from_cell.rotation).T
-    corners += np.array(sun_from_cell.translation)
-    nearest = np.zeros((SIDE, SIDE))
-    cover(corners, sun.values, nearest, np.full((SIDE, SIDE), -1, dtype=np.int32))
-    way = sun_from_cell @ lens.cell_from_camera
-    carried = np.column_stack((np.array(way.rotation), np.array(way.translation)))
+    sun = sun_lens(light, middle, radius, SIDE)
+    nearest = sun_map([picture.mesh], sun)
     lit = light.on(picture.mesh.normals).mean(axis=1)
     around = Light(light.towards, 0.0, light.above, light.below)
     kept = around.on(picture.mesh.normals).mean(axis=1) / np.maximum(lit, 1e-9)
     lenses = np.stack((lens.values, sun.values))
+    carried = carried_by(sun, lens)
     _darken(picture.nearest, picture.triangles, kept, lenses, carried, nearest, picture.colour)
+
+
+def sun_lens(
+    light: Light, middle: Vector3 = (1.7, 0.0, 0.7), radius: float = 2.0, side: int = 640
+) -> Lens:
+    """The light's view of a region, with its radius [m] and so many pixels along each side."""
+    towards = np.array(light.towards) / np.linalg.norm(light.towards)
+    x, y, z = (np.array(middle) + AWAY * towards).tolist()
+    view = 2 * math.atan(radius / AWAY)
+    return Lens.looking(aimed((x, y, z), middle), (side, side), view, 1.0)
+
+
+def sun_map(meshes: list[Mesh], sun: Lens, before: Floats | None = None) -> Floats:
+    """1 / depth [1/m] of what the light sees first, (side, side); over a map of other things."""
+    sun_from_cell = sun.cell_from_camera.inverse
+    turn, shift = np.array(sun_from_cell.rotation), np.array(sun_from_cell.translation)
+    side = sun.size[0]
+    nearest = np.zeros((side, side)) if before is None else before.copy()
+    owner = np.empty((side, side), dtype=np.int32)
+    for mesh in meshes:
+        cover(mesh.corners @ turn.T + shift, sun.values, nearest, owner, 0)
+    return nearest
+
+
+def carried_by(sun: Lens, lens: Lens) -> Floats:
+    """(3, 4) from the lens's frame to the light's."""
+    way = sun.cell_from_camera.inverse @ lens.cell_from_camera
+    return np.column_stack((np.array(way.rotation), np.array(way.translation)))
 
 
 @loop_kernel

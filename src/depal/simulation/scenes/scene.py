@@ -11,10 +11,10 @@ from depal.domain import CellLayout, Delivery, DeliveryLine
 from depal.motion.kinematics import Kinematics
 from depal.ports import Frame
 from depal.simulation.cases import Case, cases_of
-from depal.simulation.imaging.camera import CameraModel
-from depal.simulation.imaging.lens import Lens
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.imaging.severity import Severity
+from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.foreign import with_foreign
 from depal.simulation.scenes.piles import Kind, loosened, unloaded
 from depal.simulation.scenes.truth import TrueBox, Truth, relations_of, seen_faces
@@ -105,14 +105,14 @@ def _seen(
 ) -> tuple[tuple[Frame, ...], Truth]:
     """The frames of all cameras, and the truth."""
     drawn = CellScene(layout, cases)
-    mesh = drawn.at(parked(layout, cases))
+    snapshot, shapes = parked(layout, cases), [case.shape for case in cases]
+    wear = Wear(shapes, WEAR[severity], seed)
     frames, views = [], []
     for mount in layout.cameras:
-        frame, picture = CameraModel(drawn, mount, seed, severity).shot(mesh, 0.0, 0)
+        model = CameraModel(drawn, mount, wear, seed, severity)
+        frame, parts = model.shot(snapshot, 0.0, 0)
         frames.append(frame)
-        lens = Lens.looking(mount.cell_from_camera, mount.depth_size, mount.vertical_view)
-        views.append((lens, picture))
-    shapes = [case.shape for case in cases]
+        views.append((model.lens, parts))
     boxes = tuple(
         TrueBox(case.shape, case.gtin, case.index in strangers, front, top)
         for case, (front, top) in zip(cases, seen_faces(shapes, layout, views), strict=True)

@@ -13,9 +13,9 @@ from depal.geometry import OrientedBox, Pose, prisms_of
 from depal.selection import PERCEIVED, Tolerances
 from depal.selection.relations import A_BEFORE_B, B_BEFORE_A, CLASH, relate
 from depal.simulation.imaging.lens import Lens
-from depal.simulation.imaging.raster import Picture
 
 Floats = npt.NDArray[np.float64]
+Parts = npt.NDArray[np.int64]
 
 GRID = 16
 """A face is asked about at so many points along both edges."""
@@ -120,22 +120,22 @@ def outward_of(layout: CellLayout) -> Floats:
 
 
 def seen_faces(
-    shapes: list[OrientedBox], layout: CellLayout, views: list[tuple[Lens, Picture]]
+    shapes: list[OrientedBox], layout: CellLayout, views: list[tuple[Lens, Parts]]
 ) -> list[tuple[TrueFace, TrueFace]]:
     """Front and top of each box, and how much of them the cameras see.
 
     Args:
         shapes: box i is part i in the pictures.
         layout: tells where the front is.
-        views: each camera's lens and picture.
+        views: each camera's lens, and the part that each of its pixels sees.
     """
     outward = outward_of(layout)
     poses = [pose for shape in shapes for pose in front_and_top(shape, outward)]
     sizes = [_extent(shapes[k // 2], pose) for k, pose in enumerate(poses)]
     shares, angles = [], []
     union = np.zeros((len(poses), GRID * GRID), dtype=np.bool_)
-    for lens, picture in views:
-        seen, angle = _seen(poses, sizes, lens, picture)
+    for lens, parts in views:
+        seen, angle = _seen(poses, sizes, lens, parts)
         shares.append(seen.mean(axis=1))
         angles.append(angle)
         union |= seen & (angle <= STEEPEST)[:, None]
@@ -159,7 +159,7 @@ def _extent(shape: OrientedBox, face: Pose) -> tuple[float, float]:
 
 
 def _seen(
-    poses: list[Pose], sizes: list[tuple[float, float]], lens: Lens, picture: Picture
+    poses: list[Pose], sizes: list[tuple[float, float]], lens: Lens, parts: Parts
 ) -> tuple[npt.NDArray[np.bool_], Floats]:
     """Which points of a grid on each face a picture shows, (n, GRID^2); and angles (n,)."""
     steps = (np.arange(GRID) + 0.5) / GRID - 0.5
@@ -178,7 +178,7 @@ def _seen(
     y = np.rint(local[..., 1] / z * lens.focal[1] + lens.centre[1]).astype(int)
     width, height = lens.size
     inside = (local[..., 2] > lens.near) & (x >= 0) & (x < width) & (y >= 0) & (y < height)
-    part = picture.parts[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)]
+    part = parts[np.clip(y, 0, height - 1), np.clip(x, 0, width - 1)]
     eye = np.array(lens.cell_from_camera.translation)
     way = eye - shifts
     cosine = -(turns[:, :, 2] * way).sum(axis=1) / np.linalg.norm(way, axis=1)

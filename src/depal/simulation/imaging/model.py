@@ -1,0 +1,222 @@
+"""One camera before one scene in one run: from the places of all things to a frame."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+from scipy.spatial.transform import Rotation
+
+from depal.domain import CameraMount
+from depal.geometry import Pose
+from depal.ports import Frame
+from depal.simulation.imaging.backdrop import (
+    Backdrop,
+    backdrop,
+    in_view,
+    planes_of,
+    region_of,
+    seen_from,
+)
+from depal.simulation.imaging.deep import disparities
+from depal.simulation.imaging.depth_noise import DEPTH, DepthSensor
+from depal.simulation.imaging.exposure import Looks, Sun, expose, shade_ground
+from depal.simulation.imaging.hall import RunLight
+from depal.simulation.imaging.kernels import cover
+from depal.simulation.imaging.lens import Lens
+from depal.simulation.imaging.mesh import Mesh
+from depal.simulation.imaging.raster import fields_of
+from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.sensor import Grain
+from depal.simulation.imaging.severity import Severity
+from depal.simulation.imaging.shadows import carried_by, sun_lens, sun_map
+from depal.simulation.imaging.wear import Wear, Worn
+from depal.simulation.world import Snapshot
+
+Floats = npt.NDArray[np.float64]
+Ints = npt.NDArray[np.int64]
+Bytes = npt.NDArray[np.uint8]
+Owners = npt.NDArray[np.int32]
+
+
+class CameraModel:
+    """What one camera makes of a scene in one run.
+
+    Attributes:
+        mount: where it stands.
+        severity: how far it is from ideal.
+        lens: of the depth picture.
+        bias: every depth is wrong by this share; whoever uses the camera does not know it.
+    """
+
+    def __init__(
+        self,
+        scene: CellScene,
+        mount: CameraMount,
+        wear: Wear,
+        seed: int,
+        severity: Severity = Severity.NORMAL,
+    ) -> None:
+        """A camera before a scene.
+
+        Args:
+            scene: what it sees.
+            mount: where it stands.
+            wear: of the scene's boxes in this run.
+            seed: of all that is random in this run.
+            severity: how far it is from ideal.
+        """
+        self.mount, self.severity = mount, severity
+        self._scene, self._seed = scene, seed
+        self._colour_lens, self.lens = (
+            Lens.looking(mount.cell_from_camera, size, mount.vertical_view)
+            for size in (mount.colour_size, mount.depth_size)
+        )
+        own = int.from_bytes(mount.name.encode()[:6].ljust(6), "big")
+        self._own = own
+        self._light = RunLight.drawn(severity, seed, own)
+        self._sun = sun_lens(self._light.light)
+        self._wear = wear
+        self._sensor = DepthSensor(self.lens, DEPTH[severity], (seed, own))
+        self.bias = self._sensor.bias
+        settings = self._light.settings
+        self._grain = Grain(mount.colour_size, settings.grain, settings.blur, (seed, own))
+        self._columns, self._rows = _nearest_pixels(self._colour_lens, self.lens)
+        width, height = mount.colour_size
+        self._owner = np.empty((height, width), dtype=np.int32)  # filled anew for each picture
+        self._nearest = np.empty((height, width), dtype=np.float32)
+        self._colour = np.empty((height, width, 3), dtype=np.uint8)
+        self._still: tuple[tuple[str, ...], Backdrop] | None = None
+
+    def frame(self, snapshot: Snapshot, taken: float, number: int) -> Frame:
+        """A picture of a moment; the same for the same seed, moment and number.
+
+        Args:
+            snapshot: where everything is.
+            taken: when [s].
+            number: of this picture in the run.
+        """
+        return self._taken(snapshot, taken, number)[0]
+
+    def shot(self, snapshot: Snapshot, taken: float, number: int) -> tuple[Frame, Ints]:
+        """The same, and the part that each pixel of the depth picture truly sees, -1 for none."""
+        frame, owner, parts = self._taken(snapshot, taken, number)
+        return frame, np.append(parts, -1)[owner]
+
+    def _taken(self, snapshot: Snapshot, taken: float, number: int) -> tuple[Frame, Owners, Ints]:
+        """The picture, the triangle of each of its depths, and the part of each triangle."""
+        behind = self._backdrop(snapshot)
+        mesh, faces = self._scene.moving(snapshot)
+        corners = seen_from(mesh.corners, self._colour_lens)
+        chosen = in_view(corners, self._colour_lens)
+        before, faces, near = mesh.chosen(chosen), faces[chosen], corners[chosen]
+        first, owner = len(behind.mesh.parts), self._owner
+        np.copyto(owner, behind.owner)
+        worn = self._worn(snapshot)
+        colour = self._exposed(behind, mesh, before, near, faces, worn, owner)
+        random = np.random.default_rng([self._seed, 7, self._own, number])
+        deep = np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+        planes = np.concatenate((behind.planes, planes_of(near)))
+        each = np.concatenate((np.full(first, -1), faces))
+        depth = self._depth(deep, planes, each, worn, random)
+        frame = Frame(
+            taken,
+            self._grain.sensed(colour, random),
+            depth,
+            self._colour_lens.k,
+            self.lens.k,
+            self.mount.cell_from_camera,
+        )
+        return frame, deep, np.concatenate((behind.mesh.parts, before.parts))
+
+    def _exposed(
+        self,
+        behind: Backdrop,
+        mesh: Mesh,
+        before: Mesh,
+        corners: Floats,
+        faces: Ints,
+        worn: Worn,
+        owner: Owners,
+    ) -> Bytes:
+        """The sharp picture; `owner` is updated.
+
+        Args:
+            behind: what is still.
+            mesh: what moves.
+            before: that part of it which is in the picture.
+            corners: of that in the camera's frame.
+            faces: of that.
+            worn: the wear.
+            owner: triangles of `behind` as its pixels see them.
+        """
+        lens, first = self._colour_lens, len(behind.mesh.parts)
+        nearest, colour = self._nearest, self._colour
+        np.copyto(nearest, behind.nearest)
+        np.copyto(colour, behind.colour)
+        cover(corners, lens.values, nearest, owner, first)
+        lit = sun_map([mesh], self._sun, behind.sun)
+        most = cv2.dilate(lit, np.ones((3, 3), dtype=np.uint8))
+        way, kept = carried_by(self._sun, lens), self._light.kept(before)
+        sun = Sun(self._sun.values, way, lit, np.asarray(most), kept)
+        flat = colour.reshape(-1, 3)
+        bare = behind.colour.reshape(-1, 3)
+        shade_ground(behind.ground, owner.ravel(), first, lit, sun.most.ravel(), bare, flat)
+        region = region_of(corners, lens)
+        looks = self._looks(before, corners, faces)
+        expose(owner, nearest, region, first, looks, sun, worn, colour)
+        return colour
+
+    def _backdrop(self, snapshot: Snapshot) -> Backdrop:
+        """The still things of this moment; painted anew only when a trolley comes or goes."""
+        there = tuple(name for name, trolley in snapshot.bays.items() if trolley is not None)
+        if self._still is None or self._still[0] != there:
+            mesh = self._scene.still(snapshot)
+            drawn = backdrop(mesh, self._scene.atlas, self._colour_lens, self._light)
+            self._still = (there, drawn)
+        return self._still[1]
+
+    def _worn(self, snapshot: Snapshot) -> Worn:
+        turns = Rotation.from_quat(snapshot.boxes[:, 3:], scalar_first=True).as_matrix()
+        poses = [
+            Pose.from_arrays(at, turn)
+            for at, turn in zip(snapshot.boxes[:, :3], turns, strict=True)
+        ]
+        seen = self.mount.cell_from_camera.inverse
+        return self._wear.seen_from([seen @ pose for pose in poses], self.mount.cell_from_camera)
+
+    def _looks(self, mesh: Mesh, corners: Floats, faces: Ints) -> Looks:
+        atlas = self._scene.atlas
+        fields = fields_of(mesh, corners, atlas, self._light.on(mesh))
+        printed = faces >= 0
+        fields[printed, :2, 3] += self._wear.shifts[faces[printed]]
+        return Looks(
+            fields,
+            mesh.skins,
+            faces,
+            atlas.table,
+            atlas.texels,
+            self._colour_lens.values,
+            self._light.gains,
+        )
+
+    def _depth(
+        self, owner: Owners, planes: Floats, faces: Ints, worn: Worn, random: np.random.Generator
+    ) -> npt.NDArray[np.float32]:
+        disparity = np.empty(owner.shape, dtype=np.float32)
+        holes = np.empty(owner.shape, dtype=np.bool_)
+        errors = DEPTH[self.severity]
+        limits = np.array([self._sensor.scale, errors.flattest, errors.glare])
+        disparities(owner, planes, faces, worn, self.lens.values, limits, disparity, holes)
+        return self._sensor.measured(disparity, holes, random)
+
+
+def _nearest_pixels(colour: Lens, depth: Lens) -> tuple[Ints, Ints]:
+    """The colour picture's column and row that lie nearest to each of the depth picture's.
+
+    Both look the same way; where the depth picture is wider its margin repeats the colour's edge.
+    """
+    found = []
+    for axis in range(2):
+        rays = (np.arange(depth.size[axis]) - depth.centre[axis]) / depth.focal[axis]
+        pixels = np.rint(rays * colour.focal[axis] + colour.centre[axis]).astype(np.int64)
+        found.append(np.clip(pixels, 0, colour.size[axis] - 1))
+    return found[0], found[1]
