@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from depal.app.run.values import Job
-from depal.cell.sight import Book, CameraSight, Eyes
+from depal.cell.sight import CameraSight, Eyes
 from depal.domain import DeliveryLine, Gtin
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox, Pose
@@ -200,6 +200,6 @@ def mimicking(failures: Failures | None = None):  # noqa: ANN201 - a callable of
         eyes = Eyes(mimic, mimic.rest)
         cameras = [QuickCamera(clock, cell)]
         memory = Memory(places=job.named)
-        return CameraSight(cameras, eyes, Book(PictureBook()), job.delivery.lines, clock, memory)
+        return CameraSight(cameras, eyes, PictureBook(), job.delivery.lines, clock, memory)
 
     return seeing

@@ -49,13 +49,11 @@ def choose(work: Workplace, desk: Desk) -> Choice:
 
 def why_left(work: Workplace, box: Perceived) -> str | None:
     """Why a box is not to be taken whatever the arm can do; None where it may be."""
-    if isinstance(box, Recognition):
-        reason = work.impossible.get(box.gtin)
-    else:
-        reason = why_vague(work, box)
-    return (
-        work.left_behind.get(box.id) or reason or (UNSEEN if box.id in work.pile.hidden else None)
-    )
+    if box.id in work.left_behind:
+        return work.left_behind[box.id]
+    if box.id in work.pile.hidden:
+        return UNSEEN
+    return work.impossible.get(box.gtin) if isinstance(box, Recognition) else why_vague(work, box)
 
 
 def why_vague(work: Workplace, box: Perceived) -> str | None:

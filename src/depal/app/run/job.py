@@ -157,7 +157,9 @@ async def _run(
     watch: bool,
 ) -> tuple[Outcome, Film]:
     clock = LoopClock()
-    cell = build(job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity)
+    cell = build(
+        job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity
+    )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.delivery], places, seed=job.seed)
     times = Timekeeper(clock)

@@ -26,17 +26,6 @@ FIRST, LATER = 1.2, 0.5
 """What computing is charged after the first look and after later ones [s]."""
 
 
-@dataclass(slots=True)
-class Book:
-    """The picture book that the cell works with; it grows.
-
-    Attributes:
-        pictures: as they are now.
-    """
-
-    pictures: PictureBook
-
-
 Rest = Callable[[Sequence[Frame], Sequence[OrientedBox]], tuple[OrientedBox, ...]]
 """Solids where something stands in the frames of a look that none of these boxes explains."""
 
@@ -68,7 +57,7 @@ class CameraSight:
         self,
         cameras: Sequence[Camera],
         eyes: Eyes,
-        book: Book,
+        book: PictureBook,
         note: tuple[DeliveryLine, ...] | None,
         clock: Clock,
         memory: Memory | None = None,
@@ -83,7 +72,7 @@ class CameraSight:
             clock: the loop's time.
             memory: names that were given in advance.
         """
-        self._cameras, self._eyes, self._book = tuple(cameras), eyes, book
+        self._cameras, self._eyes, self.book = tuple(cameras), eyes, book
         self._note, self._clock = note, clock
         self._pile: Pile | None = None
         self._covered: Callable[[], bool] = lambda: False
@@ -115,7 +104,7 @@ class CameraSight:
             raise DeviceError("; ".join(problems))
         self._forget_taken()
         before = None if self.last is None else self._believed()
-        look = self._eyes.perceive(frames, self._expected(), self._book.pictures, before)
+        look = self._eyes.perceive(frames, self._expected(), self.book, before)
         self.frames, self.last = tuple(frames), look
         self.memory = self.memory.update(look, taken)
         return self._view(taken)
