@@ -5,6 +5,7 @@ Detection misses boxes, depths do not: where a surface is, something is.
 
 from collections.abc import Sequence
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -13,12 +14,20 @@ from depal.geometry import OrientedBox, Pose
 from depal.ports import Frame
 
 Floats = npt.NDArray[np.float64]
+Narrow = npt.NDArray[np.float32]
+Ints = npt.NDArray[np.int64]
 
 STRIDE = 4
 """Every so many pixels of a depth picture along both edges are looked at."""
 
 AROUND = 0.04
 """A surface this near to a box belongs to it: errors of depth, and bulging [m]."""
+
+PATCH = 5
+"""A patch is so many of the thinned pixels high and wide at least."""
+
+JUMP = 0.02
+"""Neighbouring depths that differ by more of themselves are of two surfaces."""
 
 CELL = 0.05
 """Edge of the columns that the rest is gathered in [m]."""
@@ -49,27 +58,45 @@ def unexplained(
     Returns:
         Upright solids in the cell frame.
     """
-    points = np.concatenate([_points(frame) for frame in frames] or [np.empty((0, 3))])
-    pallet_from_cell = stand.cell_from_pallet.inverse
-    local = _carried(points, pallet_from_cell)
+    found = [_strange(frame, boxes, stand) for frame in frames]
+    local = np.concatenate(found) if found else np.empty((0, 3))
+    return tuple(solid.seen_from(stand.cell_from_pallet) for solid in _columns(local))
+
+
+def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> Floats:
+    """(n, 3) points of one frame that belong to no box, in the pallet's frame.
+
+    Only patches count: beside edges depths lie between two surfaces, in lines and specks.
+    """
+    depth = np.asarray(frame.depth[::STRIDE, ::STRIDE], dtype=np.float32)
+    rows, columns = np.nonzero(_even(depth))
+    points = _points(frame, depth, rows, columns)
+    local = _carried(points, stand.cell_from_pallet.inverse)
     length, width, _ = stand.size
-    inside = (local[:, 0] > 0.0) & (local[:, 0] < length)
-    inside &= (local[:, 1] > 0.0) & (local[:, 1] < width)
-    inside &= (local[:, 2] > ABOVE) & (local[:, 2] < TALLEST)
-    points, local = points[inside], local[inside]
-    free = np.ones(len(points), dtype=bool)
+    free = (local[:, 0] > 0.0) & (local[:, 0] < length)
+    free &= (local[:, 1] > 0.0) & (local[:, 1] < width)
+    free &= (local[:, 2] > ABOVE) & (local[:, 2] < TALLEST)
     for box in boxes:
-        within = np.abs(_carried(points, box.pose.inverse)) < np.array(box.size) / 2 + AROUND
-        free &= ~within.all(axis=1)
-    return tuple(solid.seen_from(stand.cell_from_pallet) for solid in _columns(local[free]))
+        left = np.flatnonzero(free)
+        off = np.abs(_carried(points[left], box.pose.inverse)) - np.array(box.size) / 2
+        free[left[(off < AROUND).all(axis=1)]] = False
+    mask = np.zeros(depth.shape, dtype=np.uint8)
+    mask[rows[free], columns[free]] = 1
+    patch = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
+    return np.asarray(local[patch[rows, columns] > 0])
 
 
-def _points(frame: Frame) -> Floats:
-    """(n, 3) what a depth picture shows, in the cell frame."""
-    depth = np.asarray(frame.depth[::STRIDE, ::STRIDE], dtype=np.float64)
+def _even(depth: Narrow) -> npt.NDArray[np.bool_]:
+    """Pixels whose neighbours lie on the same surface."""
+    window = np.ones((3, 3), np.uint8)
+    span = np.asarray(cv2.dilate(depth, window)) - np.asarray(cv2.erode(depth, window))
+    return np.asarray((depth > 0.0) & (span < JUMP * depth))
+
+
+def _points(frame: Frame, depth: Narrow, rows: Ints, columns: Ints) -> Floats:
+    """(n, 3) what some pixels of a thinned depth picture show, in the cell frame."""
     k = np.array(frame.depth_k)
-    rows, columns = np.nonzero(depth > 0.0)
-    z = depth[rows, columns]
+    z = depth[rows, columns].astype(np.float64)
     x = (columns * STRIDE - k[0, 2]) / k[0, 0] * z
     y = (rows * STRIDE - k[1, 2]) / k[1, 1] * z
     return _carried(np.column_stack((x, y, z)), frame.cell_from_camera)
