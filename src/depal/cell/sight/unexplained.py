@@ -111,17 +111,20 @@ def _columns(points: Floats) -> list[OrientedBox]:
     if not len(points):
         return []
     places, member, counts = np.unique(
-        np.floor(points[:, :2] / CELL).astype(int), axis=0, return_inverse=True, return_counts=True
+        np.floor(points[:, 1::-1] / CELL).astype(int),
+        axis=0,
+        return_inverse=True,
+        return_counts=True,
     )
     low, high = np.full(len(places), np.inf), np.full(len(places), -np.inf)
     np.minimum.at(low, member.ravel(), points[:, 2])
     np.maximum.at(high, member.ravel(), points[:, 2])
     out: list[OrientedBox] = []
     run: list[float] = []  # x from, x to, y, low, high of what is being joined
-    for (i, j), bottom, top, count in zip(places[:, ::-1], low, high, counts, strict=True):
+    for (j, i), bottom, top, count in zip(places, low, high, counts, strict=True):
         if count < LEAST:
             continue
-        x, y = i * CELL, j * CELL
+        x, y = float(i * CELL), float(j * CELL)
         if run and run[2] == y and abs(run[1] - x) < CELL / 2 and abs(run[4] - top) < STEP:
             run[1], run[3], run[4] = x + CELL, min(run[3], bottom), max(run[4], top)
             continue
@@ -131,6 +134,6 @@ def _columns(points: Floats) -> list[OrientedBox]:
 
 
 def _solid(run: list[float]) -> OrientedBox:
-    left, right, y, low, high = run
+    left, right, y, low, high = map(float, run)
     corner = (left, y, low - CELL / 2)
     return OrientedBox.from_corner(corner, (right - left, CELL, high - low + CELL / 2))
