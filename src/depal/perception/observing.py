@@ -6,14 +6,14 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from depal.domain import DeliveryLine, Product
+from depal.domain import Product
 from depal.geometry import Pose
 from depal.perception.assembling import boxes_of
-from depal.perception.detecting import Expected, Finder, Found
-from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
-from depal.perception.pictures import PictureBook
+from depal.perception.detecting import Expected, Finder, Found, Printed
+from depal.perception.faces import Face, Facing, Look, Raster
 from depal.perception.rasters import Region, rasters_of
-from depal.perception.recognition import Gallery, Patch, gallery_of, identify, patch_of
+from depal.perception.recognition import Gallery, identify, sightings
+from depal.perception.recognition.rectifying import rectified
 from depal.ports import Frame
 
 STEEPEST = math.radians(6)
@@ -66,33 +66,45 @@ class Observer:
             known: what is known before.
         """
         rasters = rasters_of(frames, self.region)
-        faces = [face for raster in rasters for face in self._faces(raster, known)]
+        faces = [face for raster in rasters for face in self._faces(raster, frames, known)]
         boxes = boxes_of(faces, self.region, known.products)
         return Look(boxes, faces=tuple(faces))
 
-    def _faces(self, raster: Raster, known: Known) -> list[Face]:
-        found = self.finder.faces(raster, known.expected, None)
-        return [self._face(raster, each, known) for each in found]
+    def _faces(self, raster: Raster, frames: Sequence[Frame], known: Known) -> list[Face]:
+        prints = None if known.gallery is None else printed_on(raster, known.gallery)
+        found = self.finder.faces(raster, known.expected, prints)
+        faces = [_laid(raster, each) for each in found]
+        if known.gallery is None:
+            return faces
+        return [_named(face, frames, known.gallery) for face in faces]
 
-    def _face(self, raster: Raster, found: Found, known: Known) -> Face:
-        """A found face in the cell, named where its print says something."""
-        rectangle, name = found.rectangle, found.name
-        if known.gallery is not None:
-            identity = identify(patch_of(raster, rectangle, 0.0015), known.gallery)
-            if identity is not None:
-                name = identity.name
-                move = identity.refined
-                c, s = math.cos(rectangle.turn), math.sin(rectangle.turn)
-                rectangle = replace(
-                    rectangle,
-                    u=rectangle.u + c * move.du - s * move.dv,
-                    v=rectangle.v + s * move.du + c * move.dv,
-                    turn=rectangle.turn + move.turn,
-                )
-        pose = raster.pose_of(rectangle)
-        if raster.facing is Facing.FRONT:
-            yaw = math.atan(float(np.clip(found.slopes[0], -STEEPEST, STEEPEST))) * TRUST
-            c, s = math.cos(yaw), math.sin(yaw)
-            pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
-        size = (rectangle.width, rectangle.height)
-        return Face(raster.facing, pose, size, found.probability, found.known, name)
+
+def printed_on(raster: Raster, gallery: Gallery) -> tuple[Printed, ...]:
+    """Where prints appear on a raster."""
+    return tuple(Printed(each.rectangle, each.name) for each in sightings(raster, gallery))
+
+
+def _laid(raster: Raster, found: Found) -> Face:
+    """A found face in the cell."""
+    pose = raster.pose_of(found.rectangle)
+    if raster.facing is Facing.FRONT:
+        yaw = math.atan(float(np.clip(found.slopes[0], -STEEPEST, STEEPEST))) * TRUST
+        c, s = math.cos(yaw), math.sin(yaw)
+        pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
+    size = (found.rectangle.width, found.rectangle.height)
+    return Face(raster.facing, pose, size, found.probability, found.known, found.name)
+
+
+def _named(face: Face, frames: Sequence[Frame], gallery: Gallery) -> Face:
+    """A face with what its print says, seen finely, and moved to where the print says it is."""
+    patch = rectified(frames, face.facing, face.cell_from_face, face.size)
+    identity = None if patch is None else identify(patch, gallery)
+    if identity is None:
+        return face
+    move, c, s = identity.refined, *_turn(identity.refined.turn)
+    shift = Pose((move.du, move.dv, 0.0), ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
+    return replace(face, cell_from_face=face.cell_from_face @ shift, name=identity.name)
+
+
+def _turn(angle: float) -> tuple[float, float]:
+    return math.cos(angle), math.sin(angle)

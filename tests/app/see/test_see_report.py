@@ -185,3 +185,24 @@ def test_what_cannot_be_read_is_one_error(tmp_path: Path) -> None:
         given(str(tmp_path / "nowhere"))
     with pytest.raises(DeliveryError):
         given(str(tmp_path), "nowhere.json")
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"colour": np.zeros((480, 640, 3), dtype=np.uint8)}, "black: 95 % of the colour picture"),
+        ({"colour": np.full((480, 640, 3), 255, dtype=np.uint8)}, "overexposed: 100 % of the"),
+        ({"depth": np.zeros((480, 640), dtype=np.float32)}, "blind: 0.0 % of the depth picture"),
+        ({"colour_k": ((9e3, 0.0, 320.0), (0.0, 9e3, 240.0), (0.0, 0.0, 1.0))}, "frame.json, K: "),
+    ],
+)
+def test_a_frame_on_which_nothing_can_be_seen_is_refused(
+    tmp_path: Path, change: dict[str, object], message: str
+) -> None:
+    """Black, overexposed, without depth, with the intrinsics of another lens."""
+    write_frame_folder(tmp_path / "bad", replace(frame(), **change))  # type: ignore[arg-type]
+    with pytest.raises(FrameError) as error:
+        given(str(tmp_path / "bad"))
+    assert str(tmp_path / "bad") in str(error.value)
+    assert message in str(error.value)
+    assert "expected" in str(error.value)

@@ -6,15 +6,17 @@ from pathlib import Path
 
 from depal.app.run.inputs import cell_of
 from depal.domain import DeliveryLine
-from depal.errors import SettingError, did_you_mean
+from depal.errors import FrameError, Problem, SettingError, did_you_mean
 from depal.geometry import Vector3
 from depal.logistics import read_delivery
 from depal.perception.book import read_book
 from depal.perception.frames import frame_folders, read_frame_folder
+from depal.perception.frames.exposure import exposure_problems
 from depal.perception.pictures import PictureBook
 from depal.ports import Frame
 from depal.simulation.imaging.photographs import book_of
 from depal.simulation.scenes import Severity, scene
+from depal.studies.perception.scenes import calibrated
 
 SIMULATED = "simulated:"
 """A reference that begins so means the simulated cell."""
@@ -64,6 +66,8 @@ def given(reference: str, note: str | None = None, book: Path | None = None) -> 
         return _simulated(reference, note, lines, pictures)
     folders = frame_folders(Path(reference))
     recorded = [read_frame_folder(folder) for folder in folders]
+    for folder, frame in zip(folders, recorded, strict=True):
+        _refuse_unusable(folder, frame.as_frame())
     sizes = [size for frame in recorded for size in frame.sizes or ()]
     return Given(
         reference,
@@ -75,6 +79,13 @@ def given(reference: str, note: str | None = None, book: Path | None = None) -> 
         pictures or PictureBook(),
         note or "",
     )
+
+
+def _refuse_unusable(folder: Path, frame: Frame) -> None:
+    """A picture on which nothing can be seen is said to be one."""
+    problems = [Problem("", finding) for finding in exposure_problems(frame)]
+    if problems:
+        raise FrameError(str(folder), problems)
 
 
 def _simulated(
@@ -92,7 +103,7 @@ def _simulated(
     return Given(
         reference,
         tuple(camera.name for camera in layout.cameras),
-        made.frames,
+        calibrated(made),
         (True,) * len(made.frames),
         made.note.lines if lines is None else lines,
         None,

@@ -95,7 +95,8 @@ def _different(pixels: Ints) -> Ints:
     """Each rectangle once."""
     wide = 1 << 14
     key = pixels @ np.array([wide**3, wide**2, wide, 1])
-    return np.asarray(pixels[np.unique(key, return_index=True)[1]])
+    rows: Ints = np.unique(key, return_index=True)[1]
+    return np.asarray(pixels[rows])
 
 
 def _sums(values: Narrow) -> Floats:

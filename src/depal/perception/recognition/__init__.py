@@ -3,6 +3,7 @@
 from depal.perception.recognition.identity import Identity, Limits, Refinement, identify
 from depal.perception.recognition.patches import Patch, patch_of
 from depal.perception.recognition.prints import Gallery, Print, gallery_of
+from depal.perception.recognition.sightings import Sighting, sightings
 
 __all__ = [
     "Gallery",
@@ -11,7 +12,9 @@ __all__ = [
     "Patch",
     "Print",
     "Refinement",
+    "Sighting",
     "gallery_of",
     "identify",
     "patch_of",
+    "sightings",
 ]

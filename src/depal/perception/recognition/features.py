@@ -14,6 +14,11 @@ DARKEST = 0.1
 WIDE = 0.03
 """Brightness is compared with that around, averaged with a Gauss curve of this width [m]."""
 
+AROUND = 0.05
+"""The same for colours, where they are compared with those around [m]."""
+
+EMPTY = cv2.BORDER_CONSTANT
+
 THIN = 4
 """The average around changes slowly: it is taken over pixels so many times larger."""
 
@@ -46,6 +51,15 @@ class Features:
         values = shrunk(self.values * self.weights[..., None], every)
         values /= np.maximum(weights, np.float32(1e-3))[..., None]
         return Features(values, weights, self.step * every)
+
+    def flattened(self) -> "Features":
+        """Every feature compared with that around it."""
+        values = self.values * self.weights[..., None]
+        sums = cv2.GaussianBlur(values, (0, 0), AROUND / self.step, borderType=EMPTY)
+        count = cv2.GaussianBlur(self.weights, (0, 0), AROUND / self.step, borderType=EMPTY)
+        flat = values - sums / np.maximum(count, np.float32(1e-3))[..., None]
+        flat *= (self.weights > 0)[..., None]
+        return Features(np.asarray(flat, dtype=np.float32), self.weights, self.step)
 
 
 def features_of(
@@ -94,6 +108,6 @@ def _around(values: Narrow, weights: Narrow, sigma: float) -> Narrow:
     size = (max(width // THIN, 1), max(height // THIN, 1))
     pair = cv2.merge((values * weights, weights))
     small = cv2.resize(pair, size, interpolation=cv2.INTER_AREA)
-    soft = cv2.GaussianBlur(small, (0, 0), sigma / THIN, borderType=cv2.BORDER_CONSTANT)
+    soft = cv2.GaussianBlur(small, (0, 0), sigma / THIN, borderType=EMPTY)
     mean = soft[..., 0] / np.maximum(soft[..., 1], np.float32(1e-4))
     return np.asarray(cv2.resize(mean, (width, height), interpolation=cv2.INTER_LINEAR))

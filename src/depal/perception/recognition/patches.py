@@ -68,18 +68,39 @@ def patch_of(raster: Raster, rectangle: Rectangle, step: float | None = None) ->
         step: edge of the patch's pixels [m]; the raster's own where none is given.
     """
     step = raster.step if step is None else step
-    width, height = patch_shape((rectangle.width, rectangle.height), step, MARGIN)
-    c, s = math.cos(rectangle.turn), math.sin(rectangle.turn)
-    k = step / raster.step
-    x0, y0 = (width - 1) / 2, (height - 1) / 2
-    u, v = rectangle.u / raster.step, rectangle.v / raster.step
-    warp = k * np.array([[c, -s, -c * x0 + s * y0], [s, c, -s * x0 - c * y0]])
-    warp[:, 2] += (u, v)
+    warp, shape = _warp(rectangle, raster.step, step)
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
-    colour = cv2.warpAffine(raster.colour, warp, (width, height), flags=flags)
-    known = cv2.warpAffine(raster.known.view(np.uint8) * 255, warp, (width, height), flags=flags)
+    colour = cv2.warpAffine(raster.colour, warp, shape, flags=flags)
+    known = cv2.warpAffine(raster.known.view(np.uint8) * 255, warp, shape, flags=flags)
     size = (rectangle.width, rectangle.height)
     return Patch(raster.facing, size, np.asarray(colour, np.uint8), known > 250, step)  # noqa: PLR2004
+
+
+def cut_out(raster: Features, rectangle: Rectangle, step: float) -> Features:
+    """The features of a face and a margin around it, cut out of those of a raster.
+
+    Args:
+        raster: features of all of it.
+        rectangle: which face.
+        step: edge of a pixel of the result [m].
+    """
+    warp, shape = _warp(rectangle, raster.step, step)
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
+    values = cv2.warpAffine(raster.values, warp, shape, flags=flags)
+    weights = cv2.warpAffine(raster.weights, warp, shape, flags=flags)
+    return Features(np.asarray(values), np.asarray(weights), step)
+
+
+def _warp(
+    rectangle: Rectangle, raster_step: float, step: float
+) -> tuple[npt.NDArray[np.float64], tuple[int, int]]:
+    """From a patch's pixels to a raster's, and the patch's width and height [pixel]."""
+    width, height = patch_shape((rectangle.width, rectangle.height), step, MARGIN)
+    c, s, k = math.cos(rectangle.turn), math.sin(rectangle.turn), step / raster_step
+    x0, y0 = (width - 1) / 2, (height - 1) / 2
+    warp = k * np.array([[c, -s, -c * x0 + s * y0], [s, c, -s * x0 - c * y0]])
+    warp[:, 2] += (rectangle.u / raster_step, rectangle.v / raster_step)
+    return warp, (width, height)
 
 
 def patch_shape(size: tuple[float, float], step: float, margin: float) -> tuple[int, int]:

@@ -19,6 +19,9 @@ BLURS = (0.0, 1.1, 2.0)
 COARSE = 3
 """The first search takes squares of so many pixels."""
 
+OUTLINE = 6
+"""Rasters are searched in squares of so many pixels."""
+
 EDGE = 0.0075
 """Prints are not compared so near to their edges, where boxes are folded [m]."""
 
@@ -33,14 +36,19 @@ class Print:
         product: whose.
         side: which face, one of `SIDES`.
         levels: its features at `FINE`, once for each of `BLURS`; places of labels have no weight.
+        middle: the same in pixels twice as large, as rasters are looked at.
         coarse: the same in pixels `COARSE` times as large.
+        outline: the same in pixels `OUTLINE` times as large, its colours compared with those
+            around as its brightness is.
         contrast: how much is printed: its squared features, summed over its area [m^2].
     """
 
     product: Product
     side: str
     levels: tuple[Features, ...]
+    middle: Features
     coarse: Features
+    outline: Features
     contrast: float
 
     @property
@@ -103,7 +111,8 @@ def print_of(product: Product, side: str, picture: Picture) -> Print:
     levels = _levels(picture, side)
     values, weights = levels[0].values, levels[0].weights
     contrast = float((values * values).sum(axis=2).ravel() @ weights.ravel()) * FINE**2
-    return Print(product, side, levels, levels[1].thinned(COARSE), contrast)
+    middle, coarse = levels[1].thinned(2), levels[1].thinned(COARSE)
+    return Print(product, side, levels, middle, coarse, middle.thinned(3).flattened(), contrast)
 
 
 def _levels(picture: Picture, side: str) -> tuple[Features, ...]:

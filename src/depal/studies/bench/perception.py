@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from depal.domain import Delivery
-from depal.errors import FrameError, Problem
+from depal.errors import FrameError, Problem, SettingError, did_you_mean
 from depal.logistics import shipped_deliveries
 from depal.perception.frames import RecordedFrame, frame_folders, read_frame_folder
 from depal.simulation.scenes import Kind, Severity
@@ -25,6 +25,9 @@ from depal.studies.perception.scenes import (
     pieces,
 )
 from depal.studies.sweep import Progress, no_progress, sweep
+
+ALL = "all"
+"""The word for every severity."""
 
 BUSY = ("dev-056", "dev-041", "dev-024")
 """The deliveries that ship which show the most faces: 31 to 38 that count."""
@@ -100,6 +103,20 @@ def bench_perception(
         for severity in extent.severities
     }
     return Result(by_severity, timed[bool(timed) :], frame_scores)
+
+
+def severities_of(word: str) -> tuple[Severity, ...]:
+    """The severities that a word means: one by its name, or `ALL`.
+
+    Raises:
+        SettingError: there is none of that name.
+    """
+    if word == ALL:
+        return tuple(Severity)
+    if word not in tuple(Severity):
+        exists = did_you_mean(word, [*Severity, ALL])
+        raise SettingError("--severity", f"unknown severity {word!r}", exists=exists)
+    return (Severity(word),)
 
 
 def busy_pieces(count: int) -> list[tuple[Piece, Delivery]]:

@@ -9,6 +9,7 @@ from depal.cell.files import shipped_cell
 from depal.domain import Delivery, DeliveryLine
 from depal.geometry import Vector3
 from depal.logistics import shipped_deliveries
+from depal.perception.calibration import calibrate
 from depal.perception.faces import Look
 from depal.perception.pictures import PictureBook
 from depal.ports import Frame
@@ -107,6 +108,12 @@ def scene_of(piece: Piece, delivery: Delivery | None = None) -> Scene:
     return scene(stacked, shipped_cell(), piece.seed, piece.severity, piece.kind, FOREIGN)
 
 
+def calibrated(made: Scene) -> tuple[Frame, ...]:
+    """The frames with the pose and the depth scale that the cell's markers tell of each camera."""
+    fiducials = made.layout.fiducials
+    return tuple(calibrate([frame], fiducials).applied(frame) for frame in made.frames)
+
+
 def measure(piece: Piece, perceive: Perceive, delivery: Delivery | None = None) -> Measured:
     """Looks twice at a scene.
 
@@ -121,11 +128,12 @@ def measure(piece: Piece, perceive: Perceive, delivery: Delivery | None = None) 
     truth = truth_of(made, products)
     book = book_of(products, piece.seed, known_share=1.0)
     note = made.note.lines if piece.noted else None
+    frames = calibrated(made)
     begun = time.perf_counter()
-    look = perceive(made.frames, note, book)
+    look = perceive(frames, note, book)
     first = time.perf_counter() - begun
     begun = time.perf_counter()
-    perceive(made.frames, note, book, look)
+    perceive(frames, note, book, look)
     later = time.perf_counter() - begun
     visible = sum(face.counts for face in truth.faces)
     return Measured(piece, visible, scored(look, truth), first, later)
