@@ -1,7 +1,8 @@
 """Everything that a primitive works with: the ports, and what the cell believes."""
 
 import asyncio
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -101,6 +102,21 @@ class Held:
     mass: float
 
 
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A product of which the note promises another number than was found.
+
+    Attributes:
+        gtin: which.
+        promised: by the note.
+        found: on the pallet.
+    """
+
+    gtin: Gtin
+    promised: int
+    found: int
+
+
 class Ending:
     """Something that begins and ends again and again, and can be waited for."""
 
@@ -127,6 +143,10 @@ class Ending:
             await self._over.wait()
 
 
+def nothing_learned(_box: BoxId, _product: Product) -> None:
+    """A sight that keeps no pictures."""
+
+
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -148,6 +168,7 @@ class Workplace:
         doubted: boxes that were not as they looked: they are looked at before another try.
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
+        learn: told the product of a box that was shown to the reader.
     """
 
     layout: CellLayout
@@ -165,6 +186,7 @@ class Workplace:
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
+    learn: Callable[[BoxId, Product], None] = nothing_learned
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -253,6 +275,20 @@ class Workplace:
             if surplus.gtin == gtin:
                 return str(surplus)
         return None
+
+    def note_differences(self) -> tuple[Difference, ...]:
+        """Where the note and what was found differ, product by product."""
+        found = Counter(gtin for gtin in self.pile.left_as if gtin is not None)
+        found.update(Gtin(code) for code in self.strangers.values())
+        tally = self.tally()
+        if not tally.missing and not tally.surplus and not self.strangers:
+            return ()  # boxes that nobody has named may be what seems to be missing
+        promised = {line.product.gtin: line.count for line in self.delivery.lines}
+        return tuple(
+            Difference(gtin, promised.get(gtin, 0), found[gtin])
+            for gtin in sorted({*promised, *found})
+            if promised.get(gtin, 0) != found[gtin]
+        )
 
     def exchange_of(self, trolley: str) -> Ending:
         """The exchange of a trolley."""

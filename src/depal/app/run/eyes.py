@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 
 from depal.app.run.values import Job
-from depal.cell.sight import CameraSight, Eyes, unexplained
+from depal.cell.sight import CameraSight, Eyes, extended_by, unexplained
 from depal.domain import CameraMount, CellLayout, DeliveryLine, Product
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox
 from depal.perception.calibration import Calibration, calibrate
-from depal.perception.faces import Look
+from depal.perception.faces import Face, Look
 from depal.perception.frames.checks import problems_of
 from depal.perception.memory import Memory
 from depal.perception.observing import Known, Observer
@@ -39,7 +39,7 @@ class Observing:
 
     def eyes(self) -> Eyes:
         """For the cell's sight."""
-        return Eyes(self.perceive, self.rest, self.check)
+        return Eyes(self.perceive, self.rest, self.check, self.learn)
 
     def perceive(
         self,
@@ -59,6 +59,12 @@ class Observing:
     ) -> tuple[OrientedBox, ...]:
         """What none of these boxes explains."""
         return unexplained(self._true(frames), boxes, self._layout.pallet)
+
+    def learn(
+        self, book: PictureBook, product: Product, faces: Sequence[Face], frames: Sequence[Frame]
+    ) -> PictureBook:
+        """The book with the fronts of a box that the reader has told."""
+        return extended_by(book, product, faces, self._true(frames))
 
     def check(self, frames: Sequence[Frame], at: float) -> tuple[str, ...]:
         """What is wrong with these frames."""

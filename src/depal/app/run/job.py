@@ -171,6 +171,7 @@ async def _run(
     desk = Desk(work, planner)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
+        work.learn = sight.learn
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
@@ -235,7 +236,10 @@ def _outcome(
         wishes=tuple(work.wishes),
         questions=work.questions.all,
         referee=cell.referee.summary(),
-        disagreements=disagreements(cell.referee, sequence, left, stack),
+        differences=work.note_differences(),
+        disagreements=disagreements(
+            cell.referee, sequence, left, stack, {each.gtin for each in work.note_differences()}
+        ),
         sim_seconds=work.now,
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,
