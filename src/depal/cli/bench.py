@@ -95,8 +95,6 @@ def perception(
     scenes: Annotated[
         int, typer.Option(help="How many of each severity; 0: only --frames.", min=0)
     ] = 201,
-        int, typer.Option(help="How many of each severity; 0: only --frames.", min=0)
-    ] = 201,
     seed: Seed = 0,
     frames: Annotated[
         list[Path] | None,
