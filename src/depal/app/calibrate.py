@@ -21,8 +21,10 @@ from depal.perception.calibration import LIMIT, Calibration, calibrate, checked,
 from depal.perception.frames import frame_folders, read_frame_folder
 from depal.ports import Frame
 from depal.simulation.cases import cases_of
-from depal.simulation.imaging.camera import CameraModel
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.severity import Severity
+from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.scene import parked
 
 Pictures = Mapping[str, tuple[Frame, ...]]
@@ -85,14 +87,12 @@ def simulated_pictures(
     """Pictures of a loaded pallet by the simulated cameras, the arm parked."""
     fits = [one for one in shipped_deliveries() if one.pallet_size == layout.pallet.size]
     cases = cases_of(fits[0], fits[0].stack or (), layout) if fits else ()
-    drawn = CellScene(layout, cases)
-    mesh = drawn.at(parked(layout, cases))
+    drawn, moment = CellScene(layout, cases), parked(layout, cases)
+    wear = Wear([case.shape for case in cases], WEAR[Severity.NORMAL], seed)
+    models = {mount.name: CameraModel(drawn, mount, wear, seed) for mount in mounts}
     return {
-        mount.name: tuple(
-            CameraModel(drawn, mount, seed).frame(mesh, 0.5 * number, number)
-            for number in range(count)
-        )
-        for mount in mounts
+        name: tuple(model.frame(moment, 0.5 * number, number) for number in range(count))
+        for name, model in models.items()
     }
 
 
@@ -119,7 +119,7 @@ def recorded_pictures(folder: Path, cameras: tuple[str, ...]) -> Pictures:
 
 def _calibrated(name: str, frames: tuple[Frame, ...], layout: CellLayout) -> Calibration:
     try:
-        return calibrate(frames, layout.fiducials)
+        return calibrate(frames, layout.fiducials, layout.fixtures)
     except FrameError as error:
         raise FrameError(f"camera {name}", error.problems) from error
 
