@@ -17,11 +17,18 @@ from depal.app.progress import progress_bar
 from depal.cell.files import shipped_cell
 from depal.domain import CellLayout, Delivery
 from depal.logistics import read_deliveries, shipped_deliveries
-from depal.perception.detecting import Finder
+from depal.perception.detecting import Finder, Printed
+from depal.perception.faces import Raster
+from depal.perception.observing import printed_on
+from depal.perception.recognition import gallery_of
 from depal.perception.scoring import FaceScore
-from depal.simulation.scenes import random_delivery
+from depal.simulation.imaging.photographs import book_of
+from depal.simulation.scenes import Scene, random_delivery
 from depal.studies.training.examples import Examples, examples_of
 from depal.studies.training.network import trained
+
+KNOWN = 0.8
+"""Share of the products on the note that there are pictures of."""
 
 SHARE = 0.5
 """Share of the scenes that show a real delivery; the others are drawn by lot."""
@@ -36,7 +43,15 @@ def one(
         delivery = deliveries[int(random.integers(len(deliveries)))]
     else:
         delivery = random_delivery(seed)
-    return examples_of(delivery, layout, seed, Finder(score) if score else None, None)
+    finder = Finder(score) if score else None
+    return examples_of(delivery, layout, seed, finder, shown_prints)
+
+
+def shown_prints(raster: Raster, made: Scene, random: np.random.Generator) -> tuple[Printed, ...]:
+    """Where the prints of most products on the note appear; some nobody has photographed."""
+    products = [line.product for line in made.note.lines]
+    book = book_of(products, int(random.integers(1 << 30)), KNOWN)
+    return printed_on(raster, gallery_of(book, made.note.lines))
 
 
 def main() -> None:

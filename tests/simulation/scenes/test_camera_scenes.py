@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -23,7 +24,20 @@ from depal.simulation.scenes import (
 )
 from depal.simulation.scenes.piles import loosened, unloaded
 
-LAYOUT = shipped_cell("default")
+CELL = shipped_cell("default")
+LAYOUT = replace(
+    CELL,
+    cameras=tuple(
+        replace(
+            mount,
+            colour_size=(mount.colour_size[0] // 2, mount.colour_size[1] // 2),
+            depth_size=(mount.depth_size[0] // 2, mount.depth_size[1] // 2),
+        )
+        for mount in CELL.cameras
+    ),
+)
+"""The default cell with pictures of half the breadth and height."""
+
 DELIVERY = shipped_deliveries()[2]
 CASES = cases_of(DELIVERY, DELIVERY.stack or (), LAYOUT)
 

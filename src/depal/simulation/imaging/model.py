@@ -81,6 +81,8 @@ class CameraModel:
         settings = self._light.settings
         self._grain = Grain(mount.colour_size, settings.grain, settings.blur, (seed, own))
         self._columns, self._rows = _nearest_pixels(self._colour_lens, self.lens)
+        ends = np.array([self._columns[[0, -1]], self._rows[[0, -1]]])
+        self._wider = bool(np.any((ends < 0) | (ends >= np.array([mount.colour_size]).T)))
         width, height = mount.colour_size
         self._owner = np.empty((height, width), dtype=np.int32)  # filled anew for each picture
         self._nearest = np.empty((height, width), dtype=np.float32)
@@ -108,13 +110,15 @@ class CameraModel:
         mesh, faces = self._scene.moving(snapshot)
         corners = seen_from(mesh.corners, self._colour_lens)
         chosen = in_view(corners, self._colour_lens)
+        if self._wider:
+            chosen |= in_view(corners, self.lens)
         before, faces, near = mesh.chosen(chosen), faces[chosen], corners[chosen]
         first, owner = len(behind.mesh.parts), self._owner
         np.copyto(owner, behind.owner)
         worn = self._worn(snapshot)
         colour = self._exposed(behind, mesh, before, near, faces, worn, owner)
         random = np.random.default_rng([self._seed, 7, self._own, number])
-        deep = np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+        deep = self._deep(behind, near, owner)
         planes = np.concatenate((behind.planes, planes_of(near)))
         each = np.concatenate((np.full(first, -1), faces))
         depth = self._depth(deep, planes, each, worn, random)
@@ -175,6 +179,18 @@ class CameraModel:
             self._still = (there, drawn)
         return self._still[1]
 
+    def _deep(self, behind: Backdrop, corners: Floats, owner: Owners) -> Owners:
+        """The triangles that the depth picture sees: the colour picture's, where that has them."""
+        if not self._wider:
+            return np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+        width, height = self.lens.size
+        nearest = np.zeros((height, width), dtype=np.float32)
+        deep = np.full((height, width), -1, dtype=np.int32)
+        still = seen_from(behind.mesh.corners, self.lens)
+        cover(still, self.lens.values, nearest, deep, 0)
+        cover(corners, self.lens.values, nearest, deep, len(behind.mesh.parts))
+        return deep
+
     def _worn(self, snapshot: Snapshot) -> Worn:
         turns = Rotation.from_quat(snapshot.boxes[:, 3:], scalar_first=True).as_matrix()
         poses = [
@@ -213,11 +229,11 @@ class CameraModel:
 def _nearest_pixels(colour: Lens, depth: Lens) -> tuple[Ints, Ints]:
     """The colour picture's column and row that lie nearest to each of the depth picture's.
 
-    Both look the same way; where the depth picture is wider its margin repeats the colour's edge.
+    Both look the same way; where the depth picture is wider they lie outside of the colour's.
     """
     found = []
     for axis in range(2):
         rays = (np.arange(depth.size[axis]) - depth.centre[axis]) / depth.focal[axis]
-        pixels = np.rint(rays * colour.focal[axis] + colour.centre[axis]).astype(np.int64)
-        found.append(np.clip(pixels, 0, colour.size[axis] - 1))
+        pixels = np.rint(rays * colour.focal[axis] + colour.centre[axis])
+        found.append(pixels.astype(np.int64))
     return found[0], found[1]

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from depal.domain import CellLayout, Delivery
 from depal.geometry import Vector3
+from depal.perception.calibration import calibrate
 from depal.perception.detecting import Expected, Finder
 from depal.perception.detecting.finding import DIRECTIONS, Printed, candidates_of
 from depal.perception.faces import Raster
@@ -92,7 +93,7 @@ def examples_of(
     severity = Severity.HARD if random.random() < HARD else Severity.NORMAL
     kind = tuple(Kind)[int(random.integers(len(Kind)))]
     made = scene(delivery, layout, seed, severity, kind, foreign=FOREIGN)
-    frames: Sequence[Frame] = made.frames
+    frames = [calibrate([frame], layout.fiducials).applied(frame) for frame in made.frames]
     coarse = random.random() < COARSE
     if coarse:
         frames = [coarser(frame, random) for frame in frames]
