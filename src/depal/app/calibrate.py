@@ -23,8 +23,6 @@ from depal.ports import Frame
 from depal.simulation.cases import cases_of
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
-from depal.simulation.imaging.severity import Severity
-from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.scene import parked
 
 Pictures = Mapping[str, tuple[Frame, ...]]
@@ -87,11 +85,11 @@ def simulated_pictures(
     """Pictures of a loaded pallet by the simulated cameras, the arm parked."""
     fits = [one for one in shipped_deliveries() if one.pallet_size == layout.pallet.size]
     cases = cases_of(fits[0], fits[0].stack or (), layout) if fits else ()
-    drawn, moment = CellScene(layout, cases), parked(layout, cases)
-    wear = Wear([case.shape for case in cases], WEAR[Severity.NORMAL], seed)
-    models = {mount.name: CameraModel(drawn, mount, wear, seed) for mount in mounts}
+    drawn = CellScene(layout, cases)
+    snapshot = parked(layout, cases)
+    models = {mount.name: CameraModel(drawn, mount, seed) for mount in mounts}
     return {
-        name: tuple(model.frame(moment, 0.5 * number, number) for number in range(count))
+        name: tuple(model.frame(snapshot, 0.5 * number, number) for number in range(count))
         for name, model in models.items()
     }
 
