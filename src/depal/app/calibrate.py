@@ -117,7 +117,7 @@ def recorded_pictures(folder: Path, cameras: tuple[str, ...]) -> Pictures:
 
 def _calibrated(name: str, frames: tuple[Frame, ...], layout: CellLayout) -> Calibration:
     try:
-        return calibrate(frames, layout.fiducials)
+        return calibrate(frames, layout.fiducials, layout.fixtures)
     except FrameError as error:
         raise FrameError(f"camera {name}", error.problems) from error
 
