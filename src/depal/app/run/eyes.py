@@ -118,4 +118,4 @@ def _calibrated(layout: CellLayout, mount: CameraMount, frame: Frame) -> Calibra
     """By the markers; a cell without any is taken as its file says."""
     if not layout.fiducials:
         return Calibration.nominal(mount)
-    return calibrate([frame], layout.fiducials)
+    return calibrate([frame], layout.fiducials, layout.fixtures)
