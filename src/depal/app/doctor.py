@@ -41,6 +41,7 @@ _NEEDED = (
 )
 _OPTIONAL = {
     "distributed": "sweeps on a Dask cluster",
+    "pyrealsense2": "a RealSense camera",
     "networkx": "a peer in depal bench",
     "py_trees": "a peer in depal bench",
     "behaviortreepy": "a peer in depal bench",

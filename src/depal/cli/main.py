@@ -11,11 +11,13 @@ from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
+from depal.cli.calibrate import calibrate
 from depal.cli.cell import cell
 from depal.cli.delivery import delivery
 from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.run import run
+from depal.cli.see import see
 from depal.cli.study import study
 from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
@@ -34,6 +36,8 @@ app.add_typer(cell, name="cell")
 app.add_typer(tasks, name="tasks")
 app.command()(run)
 app.command()(replay)
+app.command()(calibrate)
+app.command()(see)
 
 
 def main() -> None:

@@ -1,26 +1,37 @@
-"""One look: from frames to boxes."""
+"""One look: from frames to boxes. A later look finds anew only where something has changed."""
 
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
+import cv2
 import numpy as np
+import numpy.typing as npt
 
-from depal.domain import DeliveryLine, Product
-from depal.geometry import Pose
+from depal.domain import Product
+from depal.geometry import Pose, Vector3
 from depal.perception.assembling import boxes_of
-from depal.perception.detecting import Expected, Finder, Found
+from depal.perception.changing import changed
+from depal.perception.detecting import Expected, Finder, Found, Printed
 from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
-from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region, rasters_of
-from depal.perception.recognition import Gallery, Patch, gallery_of, identify, patch_of
+from depal.perception.recognition import Gallery, identify, sightings
+from depal.perception.recognition.rectifying import rectified
 from depal.ports import Frame
+
+Flags = npt.NDArray[np.bool_]
 
 STEEPEST = math.radians(6)
 """A front's yaw is taken from its depths up to this; they are noisy."""
 
 TRUST = 0.3
 """Of a front's slope so much is believed, for most boxes stand straight."""
+
+AROUND = 0.018
+"""A face is found anew where anything has changed on it or so near to it [m]."""
+
+TOUCHED = 0.02
+"""A face is found anew when more than this share of it and its surroundings has changed."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,7 +46,7 @@ class Known:
     """
 
     products: tuple[Product, ...] = ()
-    sizes: tuple[tuple[float, float, float], ...] = ()
+    sizes: tuple[Vector3, ...] = ()
     gallery: Gallery | None = None
     standing: bool = True
 
@@ -46,7 +57,22 @@ class Known:
         return Expected(tuple(sorted(sizes)), self.standing)
 
 
-@dataclass(slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
+class Observation:
+    """What a look has made of its frames.
+
+    Attributes:
+        look: the boxes.
+        rasters: what was seen.
+        faces: found on each raster.
+    """
+
+    look: Look
+    rasters: tuple[Raster, Raster]
+    faces: tuple[tuple[Face, ...], tuple[Face, ...]]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Observer:
     """Finds boxes in the frames of a cell's cameras.
 
@@ -58,41 +84,122 @@ class Observer:
     region: Region
     finder: Finder = field(default_factory=Finder)
 
-    def look(self, frames: Sequence[Frame], known: Known) -> Look:
+    def look(
+        self, frames: Sequence[Frame], known: Known, before: Observation | None = None
+    ) -> Observation:
         """The boxes that frames of one moment show.
 
         Args:
             frames: one of each camera.
             known: what is known before.
+            before: the look before; what looks as it did then is taken over.
         """
         rasters = rasters_of(frames, self.region)
-        faces = [face for raster in rasters for face in self._faces(raster, known)]
-        boxes = boxes_of(faces, self.region, known.products)
-        return Look(boxes, faces=tuple(faces))
+        found = []
+        for k, raster in enumerate(rasters):
+            kept: tuple[Face, ...] = ()
+            part: Raster | None = raster
+            if before is not None:
+                kept, part = _unchanged(before.rasters[k], before.faces[k], raster)
+            new = () if part is None else self._faces(part, kept, frames, known)
+            found.append((*kept, *new))
+        faces = (tuple(found[0]), tuple(found[1]))
+        boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
+        return Observation(Look(boxes, faces=(*faces[0], *faces[1])), rasters, faces)
 
-    def _faces(self, raster: Raster, known: Known) -> list[Face]:
-        found = self.finder.faces(raster, known.expected, None)
-        return [self._face(raster, each, known) for each in found]
-
-    def _face(self, raster: Raster, found: Found, known: Known) -> Face:
-        """A found face in the cell, named where its print says something."""
-        rectangle, name = found.rectangle, found.name
+    def _faces(
+        self, raster: Raster, kept: Sequence[Face], frames: Sequence[Frame], known: Known
+    ) -> tuple[Face, ...]:
+        prints = None if known.gallery is None else printed_on(raster, known.gallery)
+        fixed = [rectangle_of(raster, face) for face in kept]
+        found = self.finder.faces(raster, known.expected, prints, fixed)
+        faces = [_laid(raster, each) for each in found]
         if known.gallery is not None:
-            identity = identify(patch_of(raster, rectangle, 0.0015), known.gallery)
-            if identity is not None:
-                name = identity.name
-                move = identity.refined
-                c, s = math.cos(rectangle.turn), math.sin(rectangle.turn)
-                rectangle = replace(
-                    rectangle,
-                    u=rectangle.u + c * move.du - s * move.dv,
-                    v=rectangle.v + s * move.du + c * move.dv,
-                    turn=rectangle.turn + move.turn,
-                )
-        pose = raster.pose_of(rectangle)
-        if raster.facing is Facing.FRONT:
-            yaw = math.atan(float(np.clip(found.slopes[0], -STEEPEST, STEEPEST))) * TRUST
-            c, s = math.cos(yaw), math.sin(yaw)
-            pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
-        size = (rectangle.width, rectangle.height)
-        return Face(raster.facing, pose, size, found.probability, found.known, name)
+            faces = [_named(face, frames, known.gallery) for face in faces]
+        return tuple(faces)
+
+
+def printed_on(raster: Raster, gallery: Gallery) -> tuple[Printed, ...]:
+    """Where prints appear on a raster."""
+    return tuple(Printed(each.rectangle, each.name) for each in sightings(raster, gallery))
+
+
+def rectangle_of(raster: Raster, face: Face) -> Rectangle:
+    """A face in the plane of a raster."""
+    pose = raster.cell_from_raster.inverse @ face.cell_from_face
+    u, v, depth = pose.translation
+    turn = math.atan2(pose.rotation[1][0], pose.rotation[0][0])
+    return Rectangle(u, v, *face.size, turn, depth)
+
+
+def _laid(raster: Raster, found: Found) -> Face:
+    """A found face in the cell."""
+    pose = raster.pose_of(found.rectangle)
+    if raster.facing is Facing.FRONT:
+        yaw = math.atan(float(np.clip(found.slopes[0], -STEEPEST, STEEPEST))) * TRUST
+        c, s = math.cos(yaw), math.sin(yaw)
+        pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
+    size = (found.rectangle.width, found.rectangle.height)
+    return Face(raster.facing, pose, size, found.probability, found.known, found.name)
+
+
+def _named(face: Face, frames: Sequence[Frame], gallery: Gallery) -> Face:
+    """A face with what its print says, seen finely, and moved to where the print says it is."""
+    patch = rectified(frames, face.facing, face.cell_from_face, face.size)
+    identity = None if patch is None else identify(patch, gallery)
+    if identity is None:
+        return face
+    move = identity.refined
+    c, s = math.cos(move.turn), math.sin(move.turn)
+    shift = Pose((move.du, move.dv, 0.0), ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
+    return replace(face, cell_from_face=face.cell_from_face @ shift, name=identity.name)
+
+
+def _unchanged(
+    before: Raster, faces: Sequence[Face], now: Raster
+) -> tuple[tuple[Face, ...], Raster | None]:
+    """The faces that look as they did, and the part of the raster where others may be.
+
+    Args:
+        before: of the look before.
+        faces: that were found on it.
+        now: of this look.
+
+    Returns:
+        Faces to keep, and a part of `now`; None where nothing new can be.
+    """
+    differs = changed(before, now)
+    reach = 2 * round(AROUND / now.step) + 1
+    near = cv2.dilate(differs.astype(np.uint8), np.ones((reach, reach), dtype=np.uint8)) > 0
+    kept, explained = [], np.zeros(now.known.shape, dtype=np.uint8)
+    for face in faces:
+        outline = np.round(rectangle_of(now, face).corners / now.step).astype(np.int32)
+        inside = np.asarray(cv2.fillConvexPoly(np.zeros_like(explained), outline, 1), np.uint8)
+        if (near & (inside > 0)).sum() <= TOUCHED * max(int(inside.sum()), 1):
+            kept.append(face)
+            explained |= inside
+    open_ = ((now.known | near) & (explained == 0)).astype(np.uint8)
+    _, labels = cv2.connectedComponents(open_)
+    touched = np.unique(labels[near & (open_ > 0)])
+    rows, columns = np.nonzero(np.isin(labels, touched[touched > 0]))
+    if not rows.size:
+        return tuple(kept), None
+    return tuple(kept), _part(now, rows, columns, reach)
+
+
+def _part(
+    raster: Raster, rows: npt.NDArray[np.intp], columns: npt.NDArray[np.intp], around: int
+) -> Raster:
+    """The part of a raster that holds these pixels and some around."""
+    height, width = raster.known.shape
+    first, last = max(int(rows.min()) - around, 0), min(int(rows.max()) + around + 1, height)
+    left, right = max(int(columns.min()) - around, 0), min(int(columns.max()) + around + 1, width)
+    at = (slice(first, last), slice(left, right))
+    shift = Pose((left * raster.step, first * raster.step, 0.0))
+    return replace(
+        raster,
+        cell_from_raster=raster.cell_from_raster @ shift,
+        colour=np.ascontiguousarray(raster.colour[at]),
+        depth=np.ascontiguousarray(raster.depth[at]),
+        known=np.ascontiguousarray(raster.known[at]),
+    )

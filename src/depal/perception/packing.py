@@ -15,7 +15,7 @@ Flags = npt.NDArray[np.bool_]
 OVERLAP = 0.014
 """Rectangles may reach so far into each other [m]."""
 
-GRID = 0.012
+GRID = 0.015
 """Overlap is looked for at points so far apart [m]."""
 
 NODES = 200

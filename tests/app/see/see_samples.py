@@ -15,7 +15,9 @@ GTIN, OTHER = Gtin("12000823098180"), Gtin("12000807013116")
 def frame() -> RecordedFrame:
     """A grey picture of the cell from its front, looking a little down."""
     colour = np.full((480, 640, 3), 120, dtype=np.uint8)
+    colour[:, 320:] = 160
     depth = np.full((480, 640), 1.5, dtype=np.float32)
+    depth[200:300, 200:400] = 1.2
     return RecordedFrame(colour, depth, K, K, aimed((0.0, -0.2, 1.2), (1.6, 0.0, 0.5)))
 
 

@@ -3,6 +3,7 @@
 import math
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from functools import partial
 from statistics import median
 
 from rich.console import RenderableType
@@ -10,6 +11,7 @@ from rich.text import Text
 
 from depal.app.files import Json
 from depal.app.reports.bench import bench_report
+from depal.app.reports.perception_picture import perception_picture
 from depal.app.reports.report import PlainTable, Report, plain_table, verdict
 from depal.simulation.scenes import Kind, Severity
 from depal.studies.bench.perception_result import Result
@@ -52,6 +54,7 @@ def perception_report(result: Result) -> Report:
             "frames": list(_frame_rows(result)),
         },
         shown=[*tables, Text(RULES, style="dim")],
+        draw=partial(perception_picture, result) if result.scenes else None,
         holds=figures.holds,
     )
 

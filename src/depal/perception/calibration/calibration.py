@@ -9,10 +9,10 @@ import numpy as np
 from depal.domain import CameraMount, Fiducial
 from depal.errors import FrameError, Problem
 from depal.geometry import Matrix3, Pose
-from depal.perception.calibration.finding import found_anywhere
+from depal.perception.calibration.finding import expected, found_anywhere
 from depal.perception.calibration.planes import plane_depths
 from depal.perception.calibration.scaling import DepthScale, scale_of
-from depal.perception.calibration.solving import FEWEST, misplaced, pose_of, rms, sighted
+from depal.perception.calibration.solving import FEWEST, misplaced, pose_of, refined, rms, sighted
 from depal.ports import Frame
 
 
@@ -80,11 +80,17 @@ def calibrate(frames: Sequence[Frame], fiducials: Iterable[Fiducial]) -> Calibra
     found = [found_anywhere(frame.colour, patterns) for frame in frames]
     corners = sighted(markers, found)
     pose = pose_of(corners, first.colour_k) if corners.markers >= FEWEST else None
+    if pose is not None:
+        size = (first.colour.shape[1], first.colour.shape[0])
+        well = expected(markers, first.colour_k, size, pose)
+        better = sighted(markers, [{i: one[i] for i in one if i in well} for one in found])
+        if better.markers >= FEWEST:
+            corners, pose = better, refined(better, first.colour_k, pose)
     if pose is None:
         seen = sorted({pattern for one in found for pattern in one})
         what = f"markers {_listed(seen)} are seen, too few for a pose"
-        expected_ = f"at least {FEWEST} of {_listed(sorted(patterns))}"
-        raise FrameError("calibration", [Problem("fiducials", what, expected_)])
+        wanted = f"at least {FEWEST} of {_listed(sorted(patterns))}"
+        raise FrameError("calibration", [Problem("fiducials", what, wanted)])
     planes = [
         plane
         for frame, one in zip(frames, found, strict=True)

@@ -37,7 +37,7 @@ LIMIT = 0.005
 REACH = 0.05
 """Markers are looked for so far beside their places [m]; farther away anywhere in the picture."""
 
-WELL_KNOWN = 0.001
+WELL_KNOWN = 0.002
 """A pose counts by itself where it is known better than this among the markers [m]."""
 
 

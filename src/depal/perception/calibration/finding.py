@@ -18,6 +18,9 @@ Found = Mapping[int, Floats]
 SMALLEST = 24.0
 """A marker whose shorter diagonal is shorter cannot be read [pixel]."""
 
+STEEPEST = 0.25
+"""A marker is looked at when the cosine between its normal and the sight is greater."""
+
 AHEAD = 0.1
 """What is nearer to the lens is not looked for [m]."""
 
@@ -56,7 +59,7 @@ def found_anywhere(colour: Bytes, patterns: Iterable[int]) -> dict[int, Floats]:
 def expected(
     fiducials: Iterable[Fiducial], k: Matrix3, size: tuple[int, int], cell_from_camera: Pose
 ) -> dict[int, Floats]:
-    """Which markers a camera sees whole where nothing hides them, and where.
+    """Which markers a camera sees whole and well where nothing hides them, and where.
 
     Args:
         fiducials: all of the cell.
@@ -75,7 +78,8 @@ def expected(
         plate = projected(corners_of(fiducial, PLATE), k, cell_from_camera)
         x, y, z = plate.T
         inside = x.min() >= 0 and y.min() >= 0 and x.max() < size[0] and y.max() < size[1]
-        if way @ turn[:, 2] <= 0.0 or z.min() < AHEAD or not inside:
+        steep = way @ turn[:, 2] <= STEEPEST * np.linalg.norm(way)
+        if steep or z.min() < AHEAD or not inside:
             continue
         corners = projected(corners_of(fiducial), k, cell_from_camera)[:, :2]
         diagonals = np.linalg.norm(corners[:2] - corners[2:], axis=1)

@@ -21,6 +21,9 @@ TRUSTED = 1.0
 CORNER = 0.25
 """How well a corner is found, as a standard deviation [pixel]; measured on simulated pictures."""
 
+OUTLIER = 2.5
+"""A marker is left out where all others agree so many times better without it."""
+
 FEWEST = 3
 """So few markers give a pose; with fewer a single wrong one could decide it."""
 
@@ -43,6 +46,11 @@ class Sighted:
     def markers(self) -> int:
         """How many different ones."""
         return len(np.unique(self.patterns))
+
+    def without(self, pattern: int) -> "Sighted":
+        """The corners of all other markers."""
+        kept = self.patterns != pattern
+        return Sighted(self.patterns[kept], self.points[kept], self.pixels[kept])
 
 
 def sighted(fiducials: Iterable[Fiducial], seen: Iterable[Found]) -> Sighted:
@@ -82,9 +90,30 @@ def pose_of(corners: Sighted, k: Matrix3) -> Pose | None:
 def refined(corners: Sighted, k: Matrix3, cell_from_camera: Pose) -> Pose:
     """The pose near another one that brings the corners nearest to where they are seen.
 
-    Corners far from their place count less (soft L1), so that one marker that was moved or
-    misread does not carry the pose away.
+    Corners far from their place count less (soft L1). Where the markers do not agree, each is left
+    out in turn: one that was moved or misread is the one without which the others do.
     """
+    pose = _nearest(corners, k, cell_from_camera)
+    while corners.markers > FEWEST:
+        worst = _beside(corners, k, pose)
+        if worst <= TRUSTED:
+            break
+        tried = [corners.without(int(i)) for i in np.unique(corners.patterns)]
+        poses = [_nearest(rest, k, pose) for rest in tried]
+        left = [_beside(rest, k, one) for rest, one in zip(tried, poses, strict=True)]
+        best = int(np.argmin(left))
+        if left[best] * OUTLIER > worst:
+            break
+        corners, pose = tried[best], poses[best]
+    return pose
+
+
+def _beside(corners: Sighted, k: Matrix3, pose: Pose) -> float:
+    """How far corners are seen beside their places, as a root mean square [pixel]."""
+    return rms(projected(corners.points, k, pose)[:, :2] - corners.pixels)
+
+
+def _nearest(corners: Sighted, k: Matrix3, cell_from_camera: Pose) -> Pose:
     start = cell_from_camera.inverse
     turn, shift = np.array(start.rotation), np.array(start.translation)
     base = corners.points @ turn.T + shift

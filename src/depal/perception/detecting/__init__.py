@@ -1,6 +1,6 @@
 """The faces in a raster: proposals of both kinds, one score, no overlap."""
 
 from depal.perception.detecting.expected import Expected
-from depal.perception.detecting.finding import Finder, Found
+from depal.perception.detecting.finding import Finder, Found, Printed
 
-__all__ = ["Expected", "Finder", "Found"]
+__all__ = ["Expected", "Finder", "Found", "Printed"]

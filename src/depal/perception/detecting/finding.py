@@ -16,11 +16,14 @@ from depal.perception.seams import Seams, directions_of, seams_of
 
 Floats = npt.NDArray[np.float64]
 
-DIRECTIONS = {Facing.FRONT: 3, Facing.TOP: 5}
+DIRECTIONS = {Facing.FRONT: 2, Facing.TOP: 4}
 """Edges are looked for in so many directions at the most."""
 
-MOST = 300
+MOST = 240
 """So many candidates of one raster are weighed against each other."""
+
+FIXED = 100.0
+"""The value of a face that is known already, greater than that of all that may overlap it."""
 
 NEAR = 0.016
 """A print belongs to a candidate whose sides are all within this of its own [m]."""
@@ -77,7 +80,11 @@ class Finder:
     eager: float = 0.0
 
     def faces(
-        self, raster: Raster, expected: Expected, prints: Sequence[Printed] | None
+        self,
+        raster: Raster,
+        expected: Expected,
+        prints: Sequence[Printed] | None,
+        fixed: Sequence[Rectangle] = (),
     ) -> tuple[Found, ...]:
         """The faces in a raster, none overlapping another.
 
@@ -85,6 +92,7 @@ class Finder:
             raster: what is seen.
             expected: what the boxes may measure.
             prints: where prints were seen; None where none was looked for.
+            fixed: faces that are known already; none that is found overlaps them.
         """
         turns = directions_of(raster, DIRECTIONS[raster.facing])
         seams = [seams_of(raster, turn) for turn in turns]
@@ -97,10 +105,11 @@ class Finder:
         features = described(candidates.measured, candidates.sizes, sizes, shares)
         odds = self.score.log_odds(features)
         kept = best(candidates, odds, MOST)
-        chosen = [kept[k] for k in packed(candidates[kept].rectangles, odds[kept] + self.eager)]
+        values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))
+        chosen = packed((*candidates[kept].rectangles, *fixed), values)
         return tuple(
             self._found(candidates, int(row), float(odds[row]), agreed[row], prints or ())
-            for row in chosen
+            for row in (kept[k] for k in chosen if k < len(kept))
         )
 
     def _found(

@@ -38,6 +38,9 @@ NEAR = 0.006
 TINY = 8
 """Narrower rectangles are none [pixel]."""
 
+WIDEST = 1 << 14
+"""No raster has so many pixels along an edge."""
+
 KEPT = 8_000
 """So many rectangles of one direction go on to the score."""
 
@@ -68,7 +71,7 @@ def between_lines(seams: Seams, sizes: Sequence[tuple[float, float]]) -> Rectang
     found = _corners(seams, rows, columns)
     candidates = [_by_pairs(seams, found)]
     candidates += [_by_sizes(seams, found, rows, columns, sizes)]
-    pixels = _different(np.concatenate(candidates))
+    pixels = np.concatenate(candidates)
     kernels.snapped(rows, columns, max(round(NEAR / seams.step), 1), 1, pixels)
     wide, high = (pixels[:, 2:] - pixels[:, :2]).T
     pixels = _different(pixels[(wide > TINY) & (high > TINY)])
@@ -92,10 +95,10 @@ def measured(seams: Seams, pixels: Ints, rows: Floats, columns: Floats) -> Float
 
 
 def _different(pixels: Ints) -> Ints:
-    """Each rectangle once."""
-    wide = 1 << 14
-    key = pixels @ np.array([wide**3, wide**2, wide, 1])
-    return np.asarray(pixels[np.unique(key, return_index=True)[1]])
+    """Each rectangle once, in order."""
+    powers = WIDEST ** np.arange(3, -1, -1)
+    keys = np.unique(pixels @ powers)
+    return np.asarray(keys[:, None] // powers % WIDEST)
 
 
 def _sums(values: Narrow) -> Floats:
@@ -147,7 +150,7 @@ def _by_sizes(
     inside &= (pixels[:, 2] < width) & (pixels[:, 3] < height)
     pixels = pixels[inside]
     kernels.snapped(rows, columns, round(SNAP / seams.step), 1, pixels)
-    return pixels
+    return np.asarray(pixels)
 
 
 def _rough(pixels: Ints, rows: Floats, columns: Floats) -> Floats:

@@ -106,7 +106,7 @@ def splat(
 
 
 @loop_kernel
-def gather(
+def gather(  # noqa: PLR0913, PLR0917
     depth: Narrow,
     picture: Bytes,
     behind: Narrow,

@@ -42,6 +42,9 @@ GROWN = 0.018
 FLAT = 0.04
 """What faces up and lies less than this above the ground is the ground [m]."""
 
+SPARE = 4
+"""A raster shows so many coarse pixels around what is known."""
+
 HIDDEN = 0.06
 """A place so far behind what a camera measures is hidden from it [m]."""
 
@@ -109,12 +112,12 @@ def _raster(
 ) -> Raster:
     region_from_raster, shape = region.frame_of(facing, step, FINER)
     cell_from_raster = region.cell_from_region @ region_from_raster
-    depth_map = _depths(facing, frames, surfaces, region, cell_from_raster, shape, step)
-    smooth, reached = (
-        np.ascontiguousarray(np.repeat(np.repeat(each, FINER, axis=0), FINER, axis=1))
-        for each in depth_map
-    )
-    rows, columns = shape
+    depths = _depths(facing, frames, surfaces, region, cell_from_raster, shape, step)
+    (first, last), (left, right) = _known_part(depths[1])
+    smooth, reached = (_finer(each[first:last, left:right]) for each in depths)
+    coarse = step * FINER
+    cell_from_raster = cell_from_raster @ Pose((left * coarse, first * coarse, 0.0))
+    rows, columns = smooth.shape
     weight = np.zeros((rows, columns), dtype=np.float32)
     colour = np.zeros((rows, columns, 3), dtype=np.float32)
     for frame in frames:
@@ -126,6 +129,23 @@ def _raster(
     seen = (weight > 0.0) & np.isfinite(smooth)
     picture = np.clip(np.round(colour), weight[..., None] > 0.0, 255).astype(np.uint8)
     return Raster(facing, cell_from_raster, step, picture, smooth, np.asarray(seen))
+
+
+def _known_part(reached: Narrow) -> tuple[tuple[int, int], tuple[int, int]]:
+    """The rows and columns that hold all that is known, and a little more."""
+    known = np.isfinite(reached)
+    spans = []
+    for axis in (1, 0):
+        some = np.flatnonzero(known.any(axis=axis))
+        first, last = (int(some[0]), int(some[-1]) + 1) if some.size else (0, 1)
+        size = known.shape[1 - axis]
+        spans.append((max(first - SPARE, 0), min(last + SPARE, size)))
+    return spans[0], spans[1]
+
+
+def _finer(coarse: Narrow) -> Narrow:
+    """Each pixel as `FINER` times as many along rows and columns."""
+    return np.ascontiguousarray(np.repeat(np.repeat(coarse, FINER, axis=0), FINER, axis=1))
 
 
 def _depths(

@@ -67,4 +67,4 @@ def _peaks(counts: Floats, most: int) -> list[float]:
         angle = (float(index) + 0.5) * BIN
         if all(abs((angle - other + 45.0) % 90.0 - 45.0) >= APART for other in found):
             found.append(angle)
-    return [angle - 90.0 if angle > 45.0 else angle for angle in found] or [0.0]
+    return [(angle + 45.0) % 90.0 - 45.0 for angle in found] or [0.0]

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from depal.domain import Delivery
-from depal.errors import FrameError, Problem
+from depal.errors import FrameError, Problem, SettingError, did_you_mean
 from depal.logistics import shipped_deliveries
 from depal.perception.frames import RecordedFrame, frame_folders, read_frame_folder
 from depal.simulation.scenes import Kind, Severity
@@ -19,12 +19,15 @@ from depal.studies.bench.perception_result import Result
 from depal.studies.perception.real import score_frame, variants
 from depal.studies.perception.scenes import (
     FIRST_SEED,
-    Perceive,
+    Perception,
     Piece,
     measure,
     pieces,
 )
 from depal.studies.sweep import Progress, no_progress, sweep
+
+ALL = "all"
+"""The word for every severity."""
 
 BUSY = ("dev-056", "dev-041", "dev-024")
 """The deliveries that ship which show the most faces: 31 to 38 that count."""
@@ -42,7 +45,7 @@ class Extent:
 
     Attributes:
         severities: of the simulated scenes.
-        scenes: so many of each severity, every kind in its turn.
+        scenes: so many of each severity, every kind in its turn; 0 measures real frames alone.
         seed: another one gives other scenes.
         noted: whether perception is told the note.
         timed: so many scenes are looked at for the time that it takes.
@@ -57,7 +60,7 @@ class Extent:
 
 def bench_perception(
     extent: Extent,
-    perceive: Perceive,
+    perception: Perception,
     frames: Sequence[Path] = (),
     executor: Executor | None = None,
     progress: Progress = no_progress,
@@ -66,7 +69,7 @@ def bench_perception(
 
     Args:
         extent: how much.
-        perceive: what is measured.
+        perception: what is measured.
         frames: folders of real frames with masks, or of such folders.
         executor: works on scenes; None does in this process.
         progress: told how far it is.
@@ -81,25 +84,40 @@ def bench_perception(
         for severity in extent.severities
         for piece in pieces(severity, extent.scenes, extent.seed, noted=extent.noted)
     ]
-    busy = busy_pieces(extent.timed)
+    busy = busy_pieces(extent.timed if extent.scenes else 0)
     total = len(asked) + len(busy) + len(real)
     scenes = sweep(
-        partial(measure, perceive=perceive), asked, executor, lambda n, _: progress(n, total)
+        partial(measure, perception=perception), asked, executor, lambda n, _: progress(n, total)
     )
     timed = []
     for number, (piece, delivery) in enumerate(busy, start=len(asked)):
         progress(number, total)
-        timed.append(measure(piece, perceive, delivery))
+        timed.append(measure(piece, perception, delivery))
     frame_scores = {}
     for number, (name, frame) in enumerate(real.items(), start=len(asked) + len(busy)):
         progress(number, total)
-        frame_scores[name] = [score_frame(frame, variant, perceive) for variant in variants()]
+        frame_scores[name] = [score_frame(frame, variant, perception) for variant in variants()]
     progress(total, total)
     by_severity = {
         severity: [one for one in scenes if one.piece.severity is severity]
         for severity in extent.severities
+        if extent.scenes
     }
     return Result(by_severity, timed[bool(timed) :], frame_scores)
+
+
+def severities_of(word: str) -> tuple[Severity, ...]:
+    """The severities that a word means: one by its name, or `ALL`.
+
+    Raises:
+        SettingError: there is none of that name.
+    """
+    if word == ALL:
+        return tuple(Severity)
+    if word not in tuple(Severity):
+        exists = did_you_mean(word, [*Severity, ALL])
+        raise SettingError("--severity", f"unknown severity {word!r}", exists=exists)
+    return (Severity(word),)
 
 
 def busy_pieces(count: int) -> list[tuple[Piece, Delivery]]:

@@ -1,0 +1,78 @@
+"""Where a pile looks other than at the look before."""
+
+import cv2
+import numpy as np
+import numpy.typing as npt
+
+from depal.perception.faces import Raster
+
+Flags = npt.NDArray[np.bool_]
+Narrow = npt.NDArray[np.float32]
+
+MOVED = 0.022
+"""A surface whose depth differs by more has moved or is another one [m]."""
+
+PALER = 0.22
+"""A surface whose brightness or colour, smoothed, differs by this share looks other than before."""
+
+SMOOTH = 0.010
+"""Colours are compared over so much of a surface, a Gauss curve's width [m]."""
+
+SPECK = 0.018
+"""Changes that are narrower are noise [m]."""
+
+
+def changed(before: Raster, now: Raster) -> Flags:
+    """The places of a raster that another picture shows otherwise.
+
+    Args:
+        before: of the look before.
+        now: of this look, in the same direction, with the same step.
+
+    Returns:
+        (h, w) of `now`.
+    """
+    old = _seen_as(before, now)
+    known = old[..., 4] > 0.0
+    depth = np.where(known, old[..., 3], np.nan)
+    differs = known != now.known
+    with np.errstate(invalid="ignore"):
+        differs |= np.abs(depth - now.depth) > MOVED
+    both = known & now.known
+    colour = np.abs(_tones(old[..., :3], both, now.step) - _tones(now.colour, both, now.step))
+    differs |= both & (colour.max(axis=2) > PALER)
+    wide = max(round(SPECK / now.step) | 1, 3)
+    square = np.ones((wide, wide), dtype=np.uint8)
+    return np.asarray(cv2.morphologyEx(differs.astype(np.uint8), cv2.MORPH_OPEN, square) > 0)
+
+
+def shift_between(before: Raster, now: Raster) -> tuple[int, int]:
+    """Rows and columns from a pixel of `before` to the same place in `now`."""
+    way = before.cell_from_raster.inverse @ now.cell_from_raster
+    x, y, _ = way.translation
+    return -round(y / now.step), -round(x / now.step)
+
+
+def _seen_as(before: Raster, now: Raster) -> Narrow:
+    """(h, w, 5) colour, depth and knownness of `before` at the pixels of `now`."""
+    down, right = shift_between(before, now)
+    known = before.known.astype(np.float32)
+    depth = np.where(before.known, before.depth, 0.0).astype(np.float32)
+    every = np.dstack((before.colour.astype(np.float32), depth, known))
+    shift = np.array([[1.0, 0.0, right], [0.0, 1.0, down]])
+    height, width = now.known.shape
+    layers = [
+        cv2.warpAffine(np.ascontiguousarray(each), shift, (width, height), flags=cv2.INTER_NEAREST)
+        for each in np.moveaxis(every, 2, 0)
+    ]
+    return np.dstack(layers).astype(np.float32)
+
+
+def _tones(colour: npt.NDArray[np.generic], known: Flags, step: float) -> Narrow:
+    """(h, w, 3) logarithms of smoothed colours, of what is known."""
+    weight = known.astype(np.float32)
+    wide = SMOOTH / step
+    share = np.maximum(cv2.GaussianBlur(weight, (0, 0), wide), 1e-3)
+    kept = colour.astype(np.float32) * weight[..., None]
+    mean = np.asarray(cv2.GaussianBlur(kept, (0, 0), wide)) / share[..., None]
+    return np.log(mean + 8.0).astype(np.float32)

@@ -1,0 +1,1 @@
+"""Training of what perception believes, on simulated scenes."""
