@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from depal.domain import DeliveryLine
 from depal.geometry import Vector3
 from depal.perception.faces import Look
-from depal.perception.observing import Known, Observer
+from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import gallery_of
@@ -16,25 +16,22 @@ from depal.ports import Frame
 
 @dataclass(slots=True)
 class Eye:
-    """One pallet's worth of looks.
+    """Looks at one pallet, each with what the look before has found.
 
     Attributes:
         observer: finds the boxes.
         known: what it is told.
+        before: the look before.
     """
 
     observer: Observer
     known: Known = field(default_factory=Known)
+    before: Observation | None = None
 
-    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
-        """What is found in the frames of one look, one per camera.
-
-        Args:
-            frames: with their calibration.
-            before: the look before at the same pallet.
-        """
-        del before
-        look = self.observer.look(frames, self.known)
+    def look(self, frames: Sequence[Frame]) -> Look:
+        """What is found in the frames of one look, one per camera, with their calibration."""
+        self.before = self.observer.look(frames, self.known, self.before)
+        look = self.before.look
         on_top, occludes = relations_of(look.boxes)
         return replace(look, on_top=on_top, occludes=occludes)
 
