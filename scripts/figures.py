@@ -96,8 +96,28 @@ def simulation() -> Iterator[Line]:
     yield from _benched("simulation")
 
 
-def _benched(part: str) -> Iterator[Line]:
-    report, _ = depal("bench", part)
+def perception_normal() -> Iterator[Line]:
+    """`depal bench perception`: at least 3,000 known and 600 unknown boxes; times; real frames.
+
+    Folders of real frames with masks, where there are any, are named in DEPAL_FRAMES with the
+    system's path separator between them; none ships.
+    """
+    folders = [path for path in os.environ.get("DEPAL_FRAMES", "").split(os.pathsep) if path]
+    real = [word for folder in folders for word in ("--frames", folder)]
+    words = ("--severity", "normal", "--scenes", "330", "--workers", "2")
+    yield from _benched("perception", *words, *real)
+
+
+def perception_hard() -> Iterator[Line]:
+    """`depal bench perception` on hard scenes, where detection alone has targets."""
+    words = ("--severity", "hard", "--scenes", "201", "--workers", "2")
+    for line in _benched("perception", *words):
+        if line.what.startswith("hard") and line.figure:
+            yield line
+
+
+def _benched(part: str, *words: str) -> Iterator[Line]:
+    report, _ = depal("bench", part, *words)
     figures = report["figures"]
     assert isinstance(figures, list)  # noqa: S101 - our own file
     for figure in figures:
@@ -234,6 +254,8 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     crashes,
     planning,
     simulation,
+    perception_normal,
+    perception_hard,
     throughput,
     tests,
 )

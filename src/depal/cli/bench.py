@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from depal.cli.output import JsonFile, Seed, console
+from depal.cli.output import JsonFile, PlotFile, Seed, Workers, console
 
 if TYPE_CHECKING:
+    from depal.app.reports import Report
     from depal.studies.bench import Figure
     from depal.studies.sweep import Progress
 
@@ -19,7 +20,7 @@ def _measure(
     part: str, json_file: Path | None, *measures: "Callable[[Progress], Sequence[Figure]]"
 ) -> None:
     """Measures with a progress bar for each measure, prints, writes."""
-    from depal.app.files import checked_target, write_json  # noqa: PLC0415 - fast help
+    from depal.app.files import checked_target  # noqa: PLC0415 - fast help
     from depal.app.progress import progress_bar  # noqa: PLC0415
     from depal.app.reports import bench_report  # noqa: PLC0415
 
@@ -28,9 +29,20 @@ def _measure(
     for measure in measures:
         with progress_bar(part.capitalize()) as progress:
             figures += measure(progress)
-    report = bench_report(part, figures)
-    for table in report.shown:
-        console().print(table, highlight=False, markup=False)
+    _finish(bench_report(part, figures), json_file)
+
+
+def _finish(report: "Report", json_file: Path | None, plot: Path | None = None) -> None:
+    """Prints, draws, writes; a missed target is no error."""
+    from depal.app.files import write_json  # noqa: PLC0415 - fast help
+    from depal.studies.drawing import save_figure  # noqa: PLC0415
+
+    out = console()
+    for part in report.shown:
+        out.print(part, highlight=False, markup=False)
+    if plot is not None and report.draw is not None:
+        save_figure(report.draw(), plot)
+        out.print(f"figure: {plot}", highlight=False, markup=False)
     if json_file is not None:
         write_json(json_file, report.fields)
 
@@ -75,3 +87,41 @@ def simulation(
     if runs:
         measures.append(lambda progress: run_figures(seed, progress))
     _measure("simulation", json_file, *measures)
+
+
+@bench.command()
+def perception(
+    severity: Annotated[str, typer.Option(help="easy, normal, hard or all.")] = "all",
+    scenes: Annotated[int, typer.Option(help="How many of each severity; 0: only --frames.", min=0)] = 201,
+    seed: Seed = 0,
+    frames: Annotated[
+        list[Path] | None,
+        typer.Option(
+            help="A folder with a real frame and its masks, or with such folders; again for more.",
+            show_default=False,
+        ),
+    ] = None,
+    note: Annotated[  # noqa: FBT002 - an option
+        bool, typer.Option(help="Whether perception is told the delivery's note.")
+    ] = True,
+    workers: Workers = 1,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """What is found, named and related on scenes never used for tuning, and how fast."""
+    from depal.app.files import checked_targets  # noqa: PLC0415 - fast help
+    from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.app.reports.perception import perception_report  # noqa: PLC0415
+    from depal.studies.bench.perception import (  # noqa: PLC0415
+        Extent,
+        bench_perception,
+        severities_of,
+    )
+    from depal.studies.perception.eye import open_eye  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    checked_targets(json_file, plot)
+    extent = Extent(severities_of(severity), scenes, seed, noted=note)
+    with executor_for(workers) as executor, progress_bar("Perception") as progress:
+        result = bench_perception(extent, open_eye, frames or (), executor, progress)
+    _finish(perception_report(result), json_file, plot)

@@ -17,6 +17,7 @@ from depal.cli.delivery import delivery
 from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.run import run
+from depal.cli.see import see
 from depal.cli.study import study
 from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
@@ -36,6 +37,7 @@ app.add_typer(tasks, name="tasks")
 app.command()(run)
 app.command()(replay)
 app.command()(calibrate)
+app.command()(see)
 
 
 def main() -> None:

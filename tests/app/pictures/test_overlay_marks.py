@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from depal.app.pictures.marks import Spot, spots_for
+from depal.app.pictures.marks import BEYOND, Spot, spots_for
 
 ROOM = (4.0, 3.0)
 WORDS = (0.45, 0.25)
@@ -38,7 +38,7 @@ def test_no_words_cover_others_and_none_leave_the_picture(
 def test_words_stand_inside_exactly_where_they_fit(x: float, y: float, edge: float) -> None:
     """Else beside, with a line."""
     (spot,) = spots_for([square(x, y, edge)], [WORDS], ROOM)
-    assert spot.inside == (edge >= WORDS[0])
+    assert spot.inside == (edge >= BEYOND * WORDS[0])
     if spot.inside:
         assert (spot.x, spot.y) == (
             np.mean(square(x, y, edge)[:, 0]),

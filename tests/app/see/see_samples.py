@@ -17,6 +17,7 @@ def frame() -> RecordedFrame:
     colour = np.full((480, 640, 3), 120, dtype=np.uint8)
     colour[:, 320:] = 160
     depth = np.full((480, 640), 1.5, dtype=np.float32)
+    depth[200:300, 200:400] = 1.2
     return RecordedFrame(colour, depth, K, K, aimed((0.0, -0.2, 1.2), (1.6, 0.0, 0.5)))
 
 

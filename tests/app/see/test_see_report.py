@@ -17,18 +17,24 @@ from depal.app.files import finite
 from depal.app.see.given import Given, given
 from depal.app.see.marked import direct, marked
 from depal.app.see.report import panels_of, see_report
+from depal.cell.files import find_cell
+from depal.domain import Product
 from depal.errors import DeliveryError, FrameError, SettingError
+from depal.geometry import Pose
 from depal.perception.faces import Look, Relation
 from depal.perception.frames import write_frame_folder
-from depal.perception.pictures import PictureBook
+from depal.perception.pictures import PictureBook, ProductPictures
+from depal.perception.rasters import Region
 from depal.simulation.imaging.lens import aimed
 from depal.studies.drawing import save_figure
+
+REGION = Region(Pose((1.2, 0.0, 0.2)), (1.0, 1.4, 1.0))
 
 
 def one_frame(*, placed: bool = True) -> Given:
     """A frame from a folder, without a note."""
     frames = (frame().as_frame(),)
-    return Given("here", ("",), frames, (placed,), None, None, PictureBook(), "")
+    return Given("here", ("",), frames, (placed,), None, None, PictureBook(), "", REGION)
 
 
 def two_frames() -> Given:
@@ -90,7 +96,17 @@ def test_a_table_has_a_line_for_each_box_and_each_stray_face() -> None:
     text = out.export_text()
     for words in (GTIN, f"{OTHER} ?", "b1", "b3", "f1", "0.200 x 0.200 x 0.200 ?"):
         assert words in text
-    assert "3 boxes seen by one camera, 1 of them named for certain" in text
+    assert "3 boxes seen by one camera, without pictures of products" in text
+
+
+def test_the_title_says_how_many_boxes_are_named() -> None:
+    """Where there are pictures to name them by."""
+    product = Product(GTIN, "p", (0.3, 0.2, 0.2), 5.0)
+    known = replace(one_frame(), book=PictureBook({GTIN: ProductPictures(product)}))
+    assert see_report(known, look(), 0.25).shown[-1] == (
+        "3 boxes seen by one camera, 1 of 3 named for certain"
+    )
+    assert see_report(known, Look(()), 0.25).shown[-1] == "No box seen by one camera"
 
 
 def test_a_face_is_drawn_where_a_camera_sees_it_most_squarely() -> None:
@@ -143,13 +159,23 @@ def test_a_folder_is_one_frame_or_all_of_one_look(tmp_path: Path) -> None:
     """With the sizes that any of them knows, each once."""
     sizes = ((0.3, 0.2, 0.1),)
     write_frame_folder(tmp_path / "front", replace(frame(), sizes=sizes))
-    write_frame_folder(tmp_path / "top", replace(frame(), sizes=sizes, cell_from_camera=None))
+    write_frame_folder(tmp_path / "top", replace(frame(), sizes=sizes))
     both, one = given(str(tmp_path)), given(str(tmp_path / "front"), "dev-035")
-    assert (both.names, both.placed, both.sizes) == (("front", "top"), (True, False), sizes)
+    assert (both.names, both.placed, both.sizes) == (("front", "top"), (True, True), sizes)
     assert both.note is None
-    assert one.names == ("",)
-    assert one.noted == "dev-035"
+    assert (one.names, one.noted) == (("",), "dev-035")
     assert one.note
+    inside = given(str(tmp_path / "front"), cell="default")
+    assert inside.region == Region.above(find_cell("default").pallet) != one.region
+
+
+def test_frames_of_one_look_know_where_they_were_taken_from(tmp_path: Path) -> None:
+    """One frame alone is levelled by what it shows; two would not fit together."""
+    for name in ("front", "top"):
+        write_frame_folder(tmp_path / name, replace(frame(), cell_from_camera=None))
+    assert given(str(tmp_path / "top")).placed == (False,)
+    with pytest.raises(FrameError, match="front, top do not know where they were taken from"):
+        given(str(tmp_path))
 
 
 @pytest.mark.slow

@@ -1,5 +1,7 @@
 """Pictures differ from run to run and from box to box as real ones do."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -14,10 +16,23 @@ from depal.simulation.imaging.camera import SimulatedCamera
 from depal.simulation.imaging.hall import RunLight
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.imaging.severity import Severity
-from depal.simulation.imaging.wear import BULGE, FILM, TAPE, WEAR, Wear
+from depal.simulation.imaging.wear import BULGE, CREASE, FILM, TAPE, WEAR, Wear
 from depal.simulation.world import World
 
-LAYOUT = shipped_cell("default")
+CELL = shipped_cell("default")
+LAYOUT = replace(
+    CELL,
+    cameras=tuple(
+        replace(
+            mount,
+            colour_size=(mount.colour_size[0] // 2, mount.colour_size[1] // 2),
+            depth_size=(mount.depth_size[0] // 2, mount.depth_size[1] // 2),
+        )
+        for mount in CELL.cameras
+    ),
+)
+"""The default cell with pictures of half the breadth and height."""
+
 DELIVERY = shipped_deliveries()[2]
 CASES = cases_of(DELIVERY, DELIVERY.stack or (), LAYOUT)
 SHAPES = [case.shape for case in CASES]
@@ -40,7 +55,8 @@ def test_easy_boxes_look_as_printed() -> None:
     """No tape, no film, no bulge, gains of one."""
     found = marks(Severity.EASY, 1)
     assert np.all(found[:, :3] == 1.0)
-    assert not found[:, 3:].any()
+    assert not found[:, 3:CREASE].any()
+    assert np.all(found[:, CREASE] == 1.0)
 
 
 def test_normal_boxes_differ_in_print_tape_and_bulge() -> None:
@@ -140,3 +156,19 @@ def test_depths_are_off_by_the_runs_bias(camera: int) -> None:
     both = (depths[0] > 0) & (depths[1] > 0)
     ratio = np.median(depths[0][both] / depths[1][both])
     assert ratio == pytest.approx((1 + models[0]) / (1 + models[1]), abs=0.001)
+
+
+def test_a_depth_picture_may_see_more_than_the_colour_picture() -> None:
+    """In the middle, where both see the same, it is the same as beside a colour picture as wide."""
+    layout = LAYOUT.cameras[0]
+    width, height = layout.depth_size
+    frames = []
+    for colour in (layout.colour_size, (layout.colour_size[0] // 2, layout.colour_size[1])):
+        mount = replace(layout, colour_size=colour)
+        world = World(LAYOUT, CASES, 2)
+        frames.append(SimulatedCamera(Stage(world), LoopClock(), mount, Severity.EASY).frame(0.0))
+    assert frames[0].depth.shape == frames[1].depth.shape == (height, width)
+    one, two = (frame.depth for frame in frames)
+    both = (one > 0) & (two > 0)
+    assert both.mean() > 0.9 * (one > 0).mean()
+    assert (np.abs(one[both] - two[both]) < 0.02).mean() > 0.98

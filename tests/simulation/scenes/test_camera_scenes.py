@@ -2,6 +2,7 @@
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,10 +13,31 @@ from depal.logistics import shipped_deliveries
 from depal.logistics.gtin import gtin_fault
 from depal.simulation.cases import cases_of
 from depal.simulation.imaging.prints.design import design_of, family_of
-from depal.simulation.scenes import Kind, Scene, Severity, random_delivery, scene
+from depal.simulation.scenes import (
+    Kind,
+    Scene,
+    Severity,
+    assortment,
+    random_delivery,
+    scene,
+    sibling_share,
+)
 from depal.simulation.scenes.piles import loosened, unloaded
 
-LAYOUT = shipped_cell("default")
+CELL = shipped_cell("default")
+LAYOUT = replace(
+    CELL,
+    cameras=tuple(
+        replace(
+            mount,
+            colour_size=(mount.colour_size[0] // 2, mount.colour_size[1] // 2),
+            depth_size=(mount.depth_size[0] // 2, mount.depth_size[1] // 2),
+        )
+        for mount in CELL.cameras
+    ),
+)
+"""The default cell with pictures of half the breadth and height."""
+
 DELIVERY = shipped_deliveries()[2]
 CASES = cases_of(DELIVERY, DELIVERY.stack or (), LAYOUT)
 
@@ -148,3 +170,25 @@ def test_random_deliveries_are_stacked_and_have_twins(seed: int) -> None:
     assert delivery.stack is not None
     assert len(delivery.stack) == len(delivery.boxes)
     assert all(gtin_fault(gtin) is None for gtin in delivery.products)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_at_least_three_in_ten_products_have_a_sibling_of_equal_size(seed: int) -> None:
+    """In what a store sells, and nearly so in a random delivery; none look the same."""
+    shipped = {line.product.gtin: line.product for d in shipped_deliveries() for line in d.lines}
+    sold = assortment(shipped.values(), seed)
+    assert sibling_share(sold) >= 0.3
+    assert len({product.gtin for product in sold}) == len(sold) > len(shipped)
+    assert set(shipped) < {product.gtin for product in sold}
+    assert len({design_of(product.gtin) for product in sold}) == len(sold)
+    assert all(gtin_fault(product.gtin) is None for product in sold)
+    random = [p for k in range(8) for p in random_delivery(8 * seed + k).products.values()]
+    assert sibling_share(random) >= 0.3
+
+
+def test_foreign_boxes_are_nothing_that_the_store_sells() -> None:
+    """A book may know more than the note."""
+    sold = assortment(DELIVERY.products.values(), share=0.9)
+    known = frozenset(product.gtin for product in sold)
+    made = scene(DELIVERY, LAYOUT, 2, foreign=0.5, known=known)
+    assert not known & {box.gtin for box in made.truth.boxes if box.foreign}

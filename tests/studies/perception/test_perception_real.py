@@ -1,6 +1,7 @@
 """Real frames: turned and under another light they show the same."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,12 +11,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from depal.domain import DeliveryLine
 from depal.errors import FrameError
-from depal.geometry import Pose, Vector3
+from depal.geometry import Pose
 from depal.perception.faces import Face, Facing, Look
 from depal.perception.frames import RecordedFrame, write_frame_folder
-from depal.perception.pictures import PictureBook
 from depal.ports import Frame
 from depal.simulation.imaging.lens import aimed
 from depal.studies.bench.perception import Extent, bench_perception
@@ -37,20 +36,25 @@ def table() -> RecordedFrame:
         colour[mask] = 150
         masks.append(mask)
     depth = np.full((240, 320), FAR, dtype=np.float32)
+    depth[100:140, 20:60] = FAR - 0.2
     pose = aimed((1.5, 0.001, FAR), (1.5, 0.0, 0.0))
     return RecordedFrame(colour, depth, K, K, pose, None, tuple(masks))
 
 
-def bright_cards(
-    frames: list[Frame],
-    expected: tuple[DeliveryLine, ...] | None,
-    book: PictureBook,
-    before: Look | None = None,
-    sizes: tuple[Vector3, ...] | None = None,
-) -> Look:
+class BrightCards:
     """A perception that sees what is brighter than the table."""
-    del expected, book, before, sizes
-    (frame,) = frames
+
+    def __init__(self, *_told: object, **_sizes: object) -> None:
+        """Needs to be told nothing."""
+
+    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
+        """Every bright patch as a face."""
+        del before
+        return Look((), faces=bright_cards(frames[0]))
+
+
+def bright_cards(frame: Frame) -> tuple[Face, ...]:
+    """Every bright patch as a face."""
     (fx, _, cx), (_, fy, cy), _ = frame.colour_k
     grey = frame.colour[..., 0].astype(float)
     bright = (grey > grey[grey > 0].mean() * 1.5).astype(np.uint8)
@@ -66,13 +70,13 @@ def bright_cards(
         )
         size = ((w + 1) / fx * z, (h + 1) / fy * z)
         faces.append(Face(Facing.TOP, frame.cell_from_camera @ at, size, 0.9))
-    return Look((), faces=tuple(faces))
+    return tuple(faces)
 
 
 @pytest.mark.parametrize("variant", variants(), ids=str)
 def test_what_is_there_is_found_in_every_variant(variant: Variant) -> None:
     """Pictures, depths, masks, intrinsics and pose turn together."""
-    score = score_frame(table(), variant, bright_cards)
+    score = score_frame(table(), variant, BrightCards)
     assert (score.masks, score.found, score.false) == (4, 4, 0)
 
 
@@ -82,10 +86,7 @@ def test_a_turn_leaves_everything_where_it_is_in_the_cell(angle: float) -> None:
     """The faces that are found in a turned picture stand where they stood."""
     plain, turned = (varied(table(), Variant(turn)).as_frame() for turn in (0.0, angle))
     before, after = (
-        sorted(
-            face.cell_from_face.translation for face in bright_cards([f], None, PictureBook()).faces
-        )
-        for f in (plain, turned)
+        sorted(face.cell_from_face.translation for face in bright_cards(f)) for f in (plain, turned)
     )
     assert np.array(after) == pytest.approx(np.array(before), abs=0.012)
 
@@ -119,7 +120,7 @@ def test_a_frame_without_a_pose_stays_without() -> None:
 def test_outlines_are_where_the_face_is_seen() -> None:
     """In the colour picture."""
     frame = table().as_frame()
-    faces = bright_cards([frame], None, PictureBook()).faces
+    faces = bright_cards(frame)
     outlines = sorted(outline(face, frame).min(axis=0).round().tolist() for face in faces)
     expected = sorted([float(x), float(y)] for x, y, _, _ in CARDS)
     assert np.array(outlines) == pytest.approx(np.array(expected), abs=1.0)
@@ -140,7 +141,7 @@ def test_folders_of_frames_are_measured_and_named(tmp_path: Path) -> None:
     for parent in ("a", "b"):
         write_frame_folder(tmp_path / parent / "cards", table())
     extent = Extent((), 0, timed=0)
-    result = bench_perception(extent, bright_cards, [tmp_path / "a", tmp_path / "b" / "cards"])
+    result = bench_perception(extent, BrightCards, [tmp_path / "a", tmp_path / "b" / "cards"])
     assert list(result.frames) == ["a/cards", "b/cards"]
     figures = {figure.name: figure for figure in result.figures}
     assert [figure.value for figure in figures.values()] == [4, 0, 4] * 2
@@ -152,4 +153,4 @@ def test_a_frame_without_masks_is_refused_before_anything_is_measured(tmp_path: 
     """There is nothing to compare with."""
     write_frame_folder(tmp_path / "cards", replace(table(), masks=()))
     with pytest.raises(FrameError, match=r"cards: masks: there are no masks to compare with"):
-        bench_perception(Extent(), bright_cards, [tmp_path])
+        bench_perception(Extent(), BrightCards, [tmp_path])

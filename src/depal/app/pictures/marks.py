@@ -14,6 +14,9 @@ STEP, REACH = 0.11, 1.3
 CLOSE = 0.012
 """Words keep so far from other words [in]."""
 
+BEYOND = 0.85
+"""Words stand inside an outline that holds so much of their width and height."""
+
 COVERS, MARKED = 10.0, 0.6
 """How bad it is to cover other words, and the middle of another outline, in inches of distance."""
 
@@ -73,8 +76,8 @@ def spots_for(
 
 
 def _holds(outline: Floats, spot: Spot) -> bool:
-    """Whether words lie within a convex outline, either way round."""
-    half = np.array((spot.width, spot.height)) / 2
+    """Whether words lie within a convex outline, either way round, but for their rims."""
+    half = BEYOND * np.array((spot.width, spot.height)) / 2
     corners = np.array((spot.x, spot.y)) + half * [(-1, -1), (1, -1), (1, 1), (-1, 1)]
     edges = np.roll(outline, -1, axis=0) - outline
     away = corners[None] - outline[:, None]

@@ -260,8 +260,8 @@ def _draw_key(page: Sheet, arrows: bool) -> None:  # noqa: FBT001 - whether ther
     ]
     if arrows:
         entries += [
-            ("stands on", INK, SOLID, True),
-            ("hides, seen from the robot", INK, DOTTED, True),
+            ("is on top of", INK, SOLID, True),
+            ("hides from the robot", INK, DOTTED, True),
         ]
     across, level = MARGIN, KEY / 2 - 0.06
     for words, colour, style, headed in entries:

@@ -12,7 +12,9 @@ from depal.logistics import read_delivery
 from depal.perception.book import read_book
 from depal.perception.frames import frame_folders, read_frame_folder
 from depal.perception.frames.exposure import exposure_problems
+from depal.perception.ground import levelled, region_in
 from depal.perception.pictures import PictureBook
+from depal.perception.rasters import Region
 from depal.ports import Frame
 from depal.simulation.imaging.photographs import book_of
 from depal.simulation.scenes import Severity, scene
@@ -37,6 +39,7 @@ class Given:
         sizes: edges of the boxes that may stand there; None where nobody knows [m].
         book: pictures of products; empty where there are none.
         noted: what the note is called; empty without one.
+        region: where boxes are looked for.
     """
 
     source: str
@@ -47,15 +50,20 @@ class Given:
     sizes: tuple[Vector3, ...] | None
     book: PictureBook
     noted: str
+    region: Region
 
 
-def given(reference: str, note: str | None = None, book: Path | None = None) -> Given:
+def given(
+    reference: str, note: str | None = None, book: Path | None = None, cell: str | None = None
+) -> Given:
     """Reads everything that a look needs.
 
     Args:
         reference: a frame's folder, a folder of frames of one look, or a simulated look.
         note: a delivery whose note says what may stand there.
         book: the folder of a picture book.
+        cell: the cell that recorded frames come from: boxes are looked for above its pallet.
+            Without it they are looked for wherever something stands.
 
     Raises:
         InputError: something cannot be used.
@@ -63,21 +71,33 @@ def given(reference: str, note: str | None = None, book: Path | None = None) -> 
     lines = None if note is None else read_delivery(note).lines
     pictures = None if book is None else read_book(book)
     if reference.startswith(SIMULATED):
-        return _simulated(reference, note, lines, pictures)
+        return _simulated(reference, note, lines, pictures, cell or "default")
     folders = frame_folders(Path(reference))
     recorded = [read_frame_folder(folder) for folder in folders]
     for folder, frame in zip(folders, recorded, strict=True):
         _refuse_unusable(folder, frame.as_frame())
     sizes = [size for frame in recorded for size in frame.sizes or ()]
+    placed = tuple(frame.cell_from_camera is not None for frame in recorded)
+    if len(recorded) > 1 and not all(placed):
+        unknown = [folder.name for folder, sure in zip(folders, placed, strict=True) if not sure]
+        what = f"{', '.join(unknown)} do not know where they were taken from"
+        expected = "cell_from_camera in every frame of a look, or one frame"
+        raise FrameError(reference, [Problem("", what, expected)])
+    frames = tuple(
+        frame.as_frame() if sure else levelled(frame.as_frame())
+        for frame, sure in zip(recorded, placed, strict=True)
+    )
+    region = region_in(frames) if cell is None else Region.above(cell_of(cell).pallet)
     return Given(
         reference,
         tuple(folder.name for folder in folders) if len(folders) > 1 else ("",),
-        tuple(frame.as_frame() for frame in recorded),
-        tuple(frame.cell_from_camera is not None for frame in recorded),
+        frames,
+        placed,
         lines,
         tuple(dict.fromkeys(sizes)) or None,
         pictures or PictureBook(),
         note or "",
+        region,
     )
 
 
@@ -93,11 +113,12 @@ def _simulated(
     note: str | None,
     lines: tuple[DeliveryLine, ...] | None,
     book: PictureBook | None,
+    cell: str,
 ) -> Given:
-    """A look of the default cell; what stands there is known unless another note is named."""
+    """A look of a simulated cell; what stands there is known unless another note is named."""
     name, seed, severity = _parts(reference)
     delivery = read_delivery(name)
-    layout = cell_of("default")
+    layout = cell_of(cell)
     made = scene(delivery, layout, seed, severity)
     products = [line.product for line in delivery.lines]
     return Given(
@@ -109,6 +130,7 @@ def _simulated(
         None,
         book_of(products, seed, known_share=1.0) if book is None else book,
         note or delivery.id,
+        Region.above(layout.pallet),
     )
 
 

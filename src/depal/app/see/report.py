@@ -99,7 +99,9 @@ def _finding(seen: Given, look: Look) -> str:
         return f"No box seen by {cameras}"
     named = sum(box.gtin is not None for box in look.boxes)
     what = f"{boxes} boxes" if boxes > 1 else "One box"
-    return f"{what} seen by {cameras}, {named} of them named for certain"
+    if not seen.book.entries:
+        return f"{what} seen by {cameras}, without pictures of products"
+    return f"{what} seen by {cameras}, {named} of {boxes} named for certain"
 
 
 def _note(seen: Given, seconds: float) -> str:

@@ -7,7 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.simulation.imaging.atlas import Atlas
-from depal.simulation.imaging.exposure import Ground, find_ground
+from depal.simulation.imaging.ground import Ground, find_ground
 from depal.simulation.imaging.hall import RunLight
 from depal.simulation.imaging.kernels import cover, paint
 from depal.simulation.imaging.lens import Lens
@@ -72,7 +72,7 @@ def backdrop(mesh: Mesh, atlas: Atlas, lens: Lens, run: RunLight) -> Backdrop:
     colour = np.asarray(cv2.LUT(colour, table), dtype=np.uint8)
     light = sun_lens(run.light)
     sun = sun_map([mesh, *run.casters()], light)
-    ground = _ground(owner, nearest, run.kept(mesh), lens, light)
+    ground = _ground(owner, nearest, run.in_shadow(mesh, light), lens, light)
     return Backdrop(mesh, planes_of(corners), nearest, owner, colour, sun, ground)
 
 

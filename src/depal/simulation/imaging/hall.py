@@ -8,14 +8,18 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.geometry import OrientedBox, Pose
-from depal.simulation.imaging.lens import Light
+from depal.simulation.imaging.lens import Lens, Light
 from depal.simulation.imaging.mesh import Mesh, cuboid
 from depal.simulation.imaging.severity import Severity
+from depal.simulation.imaging.shadows import AWAY
 
 Floats = npt.NDArray[np.float64]
 
 HALL = Light(towards=(-0.35, 0.25, 0.9), direct=0.4, above=0.62, below=0.5)
 """Lamps under the ceiling, a little nearer to the robot than the pallet."""
+
+BEHIND = 0.02
+"""What lies less than this behind the first surface is lit, where light falls straight [m]."""
 
 CEILING = 4.2
 """Beams hang so high; no camera sees them, but their shadows [m]."""
@@ -50,8 +54,8 @@ class LightSettings:
 LIGHT: Mapping[Severity, LightSettings] = MappingProxyType(
     {
         Severity.EASY: LightSettings(0.0, (1.0, 1.0), 0.0, 0.0, 0.0, 2.0, 0.6),
-        Severity.NORMAL: LightSettings(0.25, (0.75, 1.1), 0.04, 0.15, 0.5, 2.5, 0.7),
-        Severity.HARD: LightSettings(0.45, (0.55, 1.25), 0.07, 0.3, 0.8, 4.0, 1.0),
+        Severity.NORMAL: LightSettings(0.25, (0.75, 1.1), 0.025, 0.15, 0.5, 2.5, 0.7),
+        Severity.HARD: LightSettings(0.45, (0.55, 1.25), 0.05, 0.3, 0.8, 4.0, 1.0),
     }
 )
 
@@ -95,11 +99,25 @@ class RunLight:
         slope = 1.0 + (mesh.corners - MIDDLE) @ self.gradient
         return np.asarray(self.light.on(mesh.normals) * np.clip(slope, 0.4, 1.6))
 
-    def kept(self, mesh: Mesh) -> Floats:
-        """The share of its brightness that each triangle keeps in the shadow, (n,)."""
+    def in_shadow(self, mesh: Mesh, sun: Lens) -> Floats:
+        """What shadows do to triangles, (n, 2).
+
+        Args:
+            mesh: in the cell.
+            sun: the light's lens.
+
+        Returns:
+            The share of its brightness that each keeps in the shadow; and how far behind the
+            light's first surface it is lit [m]: a face that the light meets flatly reaches far over
+            one of the light's pixels.
+        """
         lit = self.light.on(mesh.normals).mean(axis=1)
         around = Light(self.light.towards, 0.0, self.light.above, self.light.below)
-        return np.asarray(around.on(mesh.normals).mean(axis=1) / np.maximum(lit, 1e-9))
+        kept = around.on(mesh.normals).mean(axis=1) / np.maximum(lit, 1e-9)
+        towards = np.array(self.light.towards) / np.linalg.norm(self.light.towards)
+        facing = np.clip(np.abs(mesh.normals.mean(axis=1) @ towards), 0.05, 1.0)
+        pixel = AWAY / sun.focal[0]
+        return np.column_stack((kept, BEHIND + 2 * pixel * np.sqrt(1.0 - facing**2) / facing))
 
     def casters(self) -> list[Mesh]:
         """What throws shadows and is in no picture."""

@@ -18,7 +18,8 @@ from depal.simulation.imaging.backdrop import (
 )
 from depal.simulation.imaging.deep import disparities
 from depal.simulation.imaging.depth_noise import DEPTH, DepthSensor
-from depal.simulation.imaging.exposure import Looks, Sun, expose, shade_ground
+from depal.simulation.imaging.exposure import Looks, Sun, expose
+from depal.simulation.imaging.ground import shade_ground
 from depal.simulation.imaging.hall import RunLight
 from depal.simulation.imaging.kernels import cover
 from depal.simulation.imaging.lens import Lens
@@ -80,6 +81,8 @@ class CameraModel:
         settings = self._light.settings
         self._grain = Grain(mount.colour_size, settings.grain, settings.blur, (seed, own))
         self._columns, self._rows = _nearest_pixels(self._colour_lens, self.lens)
+        ends = np.array([self._columns[[0, -1]], self._rows[[0, -1]]])
+        self._wider = bool(np.any((ends < 0) | (ends >= np.array([mount.colour_size]).T)))
         width, height = mount.colour_size
         self._owner = np.empty((height, width), dtype=np.int32)  # filled anew for each picture
         self._nearest = np.empty((height, width), dtype=np.float32)
@@ -107,13 +110,15 @@ class CameraModel:
         mesh, faces = self._scene.moving(snapshot)
         corners = seen_from(mesh.corners, self._colour_lens)
         chosen = in_view(corners, self._colour_lens)
+        if self._wider:
+            chosen |= in_view(corners, self.lens)
         before, faces, near = mesh.chosen(chosen), faces[chosen], corners[chosen]
         first, owner = len(behind.mesh.parts), self._owner
         np.copyto(owner, behind.owner)
         worn = self._worn(snapshot)
         colour = self._exposed(behind, mesh, before, near, faces, worn, owner)
         random = np.random.default_rng([self._seed, 7, self._own, number])
-        deep = np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+        deep = self._deep(behind, near, owner)
         planes = np.concatenate((behind.planes, planes_of(near)))
         each = np.concatenate((np.full(first, -1), faces))
         depth = self._depth(deep, planes, each, worn, random)
@@ -155,7 +160,7 @@ class CameraModel:
         cover(corners, lens.values, nearest, owner, first)
         lit = sun_map([mesh], self._sun, behind.sun)
         most = cv2.dilate(lit, np.ones((3, 3), dtype=np.uint8))
-        way, kept = carried_by(self._sun, lens), self._light.kept(before)
+        way, kept = carried_by(self._sun, lens), self._light.in_shadow(before, self._sun)
         sun = Sun(self._sun.values, way, lit, np.asarray(most), kept)
         flat = colour.reshape(-1, 3)
         bare = behind.colour.reshape(-1, 3)
@@ -173,6 +178,18 @@ class CameraModel:
             drawn = backdrop(mesh, self._scene.atlas, self._colour_lens, self._light)
             self._still = (there, drawn)
         return self._still[1]
+
+    def _deep(self, behind: Backdrop, corners: Floats, owner: Owners) -> Owners:
+        """The triangles that the depth picture sees: the colour picture's, where that has them."""
+        if not self._wider:
+            return np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+        width, height = self.lens.size
+        nearest = np.zeros((height, width), dtype=np.float32)
+        deep = np.full((height, width), -1, dtype=np.int32)
+        still = seen_from(behind.mesh.corners, self.lens)
+        cover(still, self.lens.values, nearest, deep, 0)
+        cover(corners, self.lens.values, nearest, deep, len(behind.mesh.parts))
+        return deep
 
     def _worn(self, snapshot: Snapshot) -> Worn:
         turns = Rotation.from_quat(snapshot.boxes[:, 3:], scalar_first=True).as_matrix()
@@ -212,11 +229,11 @@ class CameraModel:
 def _nearest_pixels(colour: Lens, depth: Lens) -> tuple[Ints, Ints]:
     """The colour picture's column and row that lie nearest to each of the depth picture's.
 
-    Both look the same way; where the depth picture is wider its margin repeats the colour's edge.
+    Both look the same way; where the depth picture is wider they lie outside of the colour's.
     """
     found = []
     for axis in range(2):
         rays = (np.arange(depth.size[axis]) - depth.centre[axis]) / depth.focal[axis]
-        pixels = np.rint(rays * colour.focal[axis] + colour.centre[axis]).astype(np.int64)
-        found.append(np.clip(pixels, 0, colour.size[axis] - 1))
+        pixels = np.rint(rays * colour.focal[axis] + colour.centre[axis])
+        found.append(pixels.astype(np.int64))
     return found[0], found[1]

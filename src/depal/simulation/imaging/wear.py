@@ -19,9 +19,9 @@ Bytes = npt.NDArray[np.uint8]
 MARKS = 32
 """Columns of a face's marks: gain 0-2 and offset 3-5 of the print; tape 6 along its height, 7
 middle, 8 half width, 9 from, 10 to [m], 11 opacity, 12-14 colour; scuffs 15-26, each middle,
-radius [m] and lightness; 27 film; 28 bulge [m]."""
+radius [m] and lightness; 27 film; 28 bulge [m]; 29 how dark the edges are against the print's."""
 
-GAIN, OFFSET, TAPE, SCUFFS, FILM, BULGE = 0, 3, 6, 15, 27, 28
+GAIN, OFFSET, TAPE, SCUFFS, FILM, BULGE, CREASE = 0, 3, 6, 15, 27, 28, 29
 
 SCUFF_COUNT = 3
 """At the most so many scuffs on a face."""
@@ -46,29 +46,55 @@ class WearSettings:
     Attributes:
         shift: of the print on its face, standard deviation along both edges [m].
         tint: of the gain of each colour, standard deviation.
+        light: of the gain of all colours, standard deviation.
         contrast: of the contrast, standard deviation.
         taped: share of the faces with tape across.
         scuffs: how many a face has on average.
         bulge: how far the middle of a face stands out at the most [m].
         wrapped: how probable film around a group of boxes is.
         glare: how white the film shines at the most.
+        crease: how dark edges are, at least and at most; 1 as they are printed.
     """
 
-    shift: float
-    tint: float
-    contrast: float
-    taped: float
-    scuffs: float
-    bulge: float
-    wrapped: float
-    glare: float
+    shift: float = 0.0
+    tint: float = 0.0
+    light: float = 0.0
+    contrast: float = 0.0
+    taped: float = 0.0
+    scuffs: float = 0.0
+    bulge: float = 0.0
+    wrapped: float = 0.0
+    glare: float = 0.0
+    crease: tuple[float, float] = (1.0, 1.0)
 
 
 WEAR: Mapping[Severity, WearSettings] = MappingProxyType(
     {
-        Severity.EASY: WearSettings(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0),
-        Severity.NORMAL: WearSettings(0.0012, 0.03, 0.06, 0.12, 0.5, 0.004, 0.5, 0.7),
-        Severity.HARD: WearSettings(0.002, 0.05, 0.1, 0.25, 1.2, 0.008, 0.8, 0.9),
+        Severity.EASY: WearSettings(),
+        Severity.NORMAL: WearSettings(
+            shift=0.0012,
+            tint=0.012,
+            light=0.04,
+            contrast=0.06,
+            taped=0.12,
+            scuffs=0.5,
+            bulge=0.004,
+            wrapped=0.5,
+            glare=0.7,
+            crease=(0.1, 1.3),
+        ),
+        Severity.HARD: WearSettings(
+            shift=0.002,
+            tint=0.025,
+            light=0.07,
+            contrast=0.1,
+            taped=0.25,
+            scuffs=1.2,
+            bulge=0.008,
+            wrapped=0.8,
+            glare=0.9,
+            crease=(0.0, 1.3),
+        ),
     }
 )
 
@@ -166,7 +192,8 @@ def _local(size: Vector3) -> Floats:
 
 def _print(random: np.random.Generator, settings: WearSettings) -> Floats:
     """Gains and offsets of a box's colours, (6,)."""
-    tints = np.clip(random.normal(1.0, settings.tint, 3), 0.85, 1.15)
+    tints = random.normal(1.0, settings.tint, 3) * random.normal(1.0, settings.light)
+    tints = np.clip(tints, 0.8, 1.2)
     contrast = float(np.clip(random.normal(1.0, settings.contrast), 0.75, 1.2))
     return np.concatenate((tints * contrast, np.full(3, 140.0 * (1.0 - contrast))))
 
@@ -186,6 +213,7 @@ def _marks(
         at = SCUFFS + 4 * n
         marks[at : at + 4] = (s * width, t * height, 0.004 + 0.012 * r, shine)
     marks[BULGE] = settings.bulge * float(random.random()) * min(1.0, width * height / 0.06)
+    marks[CREASE] = random.uniform(*settings.crease)
     shift = np.clip(random.normal(0.0, settings.shift, 2), -0.003, 0.003)
     return marks, shift / (width, height)
 

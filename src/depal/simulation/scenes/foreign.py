@@ -11,7 +11,7 @@ from depal.simulation.imaging.prints.design import FAMILY_DIGITS, design_of, fam
 
 
 def with_foreign(
-    cases: tuple[Case, ...], share: float, random: np.random.Generator, known: frozenset[str]
+    cases: tuple[Case, ...], share: float, random: np.random.Generator, known: frozenset[Gtin]
 ) -> tuple[tuple[Case, ...], frozenset[int]]:
     """Some boxes replaced by others of the same size.
 
@@ -37,7 +37,7 @@ def with_foreign(
 
 
 def foreign_number(
-    random: np.random.Generator, known: frozenset[str], like: str | None = None
+    random: np.random.Generator, known: frozenset[Gtin], like: str | None = None
 ) -> Gtin:
     """A well-formed number that is not known; of the range of `like`, and not of its look."""
     families = {family_of(gtin) for gtin in known}

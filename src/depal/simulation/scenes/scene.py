@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from depal.domain import CellLayout, Delivery, DeliveryLine
+from depal.domain import CellLayout, Delivery, DeliveryLine, Gtin
 from depal.motion.kinematics import Kinematics
 from depal.ports import Frame
 from depal.simulation.cases import Case, cases_of
@@ -61,6 +61,7 @@ def scene(
     severity: Severity = Severity.NORMAL,
     kind: Kind = Kind.FULL,
     foreign: float = 0.0,
+    known: frozenset[Gtin] = frozenset(),
 ) -> Scene:
     """Makes a scene.
 
@@ -71,6 +72,7 @@ def scene(
         severity: how hard pictures and boxes are.
         kind: what has happened to the stack.
         foreign: share of the boxes that are replaced by products that nobody knows.
+        known: products that foreign boxes are none of, beside those on the note.
 
     Returns:
         Frames and truth; box i of the truth is the same in both.
@@ -89,8 +91,7 @@ def scene(
         gap = float(random.uniform(low, high))
     if turn > 0.0:
         cases = loosened(cases, random, turn, gap)
-    known = frozenset(str(gtin) for gtin in delivery.products)
-    cases, strangers = with_foreign(cases, foreign, random, known)
+    cases, strangers = with_foreign(cases, foreign, random, known.union(delivery.products))
     printed = tuple(replace(case, index=k) for k, case in enumerate(cases))
     frames, truth = _seen(layout, printed, strangers, seed, severity)
     return Scene(layout, frames, truth, _note(delivery, cases), severity, kind, seed)

@@ -19,7 +19,7 @@ from depal.studies.bench.perception_result import Result
 from depal.studies.perception.real import score_frame, variants
 from depal.studies.perception.scenes import (
     FIRST_SEED,
-    Perceive,
+    Perception,
     Piece,
     measure,
     pieces,
@@ -45,7 +45,7 @@ class Extent:
 
     Attributes:
         severities: of the simulated scenes.
-        scenes: so many of each severity, every kind in its turn.
+        scenes: so many of each severity, every kind in its turn; 0 measures real frames alone.
         seed: another one gives other scenes.
         noted: whether perception is told the note.
         timed: so many scenes are looked at for the time that it takes.
@@ -60,7 +60,7 @@ class Extent:
 
 def bench_perception(
     extent: Extent,
-    perceive: Perceive,
+    perception: Perception,
     frames: Sequence[Path] = (),
     executor: Executor | None = None,
     progress: Progress = no_progress,
@@ -69,7 +69,7 @@ def bench_perception(
 
     Args:
         extent: how much.
-        perceive: what is measured.
+        perception: what is measured.
         frames: folders of real frames with masks, or of such folders.
         executor: works on scenes; None does in this process.
         progress: told how far it is.
@@ -84,23 +84,24 @@ def bench_perception(
         for severity in extent.severities
         for piece in pieces(severity, extent.scenes, extent.seed, noted=extent.noted)
     ]
-    busy = busy_pieces(extent.timed)
+    busy = busy_pieces(extent.timed if extent.scenes else 0)
     total = len(asked) + len(busy) + len(real)
     scenes = sweep(
-        partial(measure, perceive=perceive), asked, executor, lambda n, _: progress(n, total)
+        partial(measure, perception=perception), asked, executor, lambda n, _: progress(n, total)
     )
     timed = []
     for number, (piece, delivery) in enumerate(busy, start=len(asked)):
         progress(number, total)
-        timed.append(measure(piece, perceive, delivery))
+        timed.append(measure(piece, perception, delivery))
     frame_scores = {}
     for number, (name, frame) in enumerate(real.items(), start=len(asked) + len(busy)):
         progress(number, total)
-        frame_scores[name] = [score_frame(frame, variant, perceive) for variant in variants()]
+        frame_scores[name] = [score_frame(frame, variant, perception) for variant in variants()]
     progress(total, total)
     by_severity = {
         severity: [one for one in scenes if one.piece.severity is severity]
         for severity in extent.severities
+        if extent.scenes
     }
     return Result(by_severity, timed[bool(timed) :], frame_scores)
 

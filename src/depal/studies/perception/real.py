@@ -13,11 +13,11 @@ import numpy.typing as npt
 from depal.geometry import Matrix3, Pose
 from depal.perception.faces import Face
 from depal.perception.frames import RecordedFrame
-from depal.perception.pictures import PictureBook
+from depal.perception.ground import levelled, region_in
 from depal.ports import Frame
 from depal.studies.perception.boxes import all_faces
 from depal.studies.perception.matching import matched
-from depal.studies.perception.scenes import Perceive
+from depal.studies.perception.scenes import Perception
 from depal.studies.perception.truth import corners_of
 
 Floats = npt.NDArray[np.float64]
@@ -68,17 +68,19 @@ def variants() -> list[Variant]:
     return [Variant(turn, light) for turn, light in itertools.product(TURNS, LIGHTS)]
 
 
-def score_frame(recorded: RecordedFrame, variant: Variant, perceive: Perceive) -> FrameScore:
+def score_frame(recorded: RecordedFrame, variant: Variant, perception: Perception) -> FrameScore:
     """Looks at a frame that was changed, without a note.
 
     Args:
         recorded: with masks, and maybe with sizes.
         variant: how it is changed.
-        perceive: what is measured.
+        perception: what is measured.
     """
     changed = varied(recorded, variant)
     frame = changed.as_frame()
-    look = perceive([frame], None, PictureBook(), None, changed.sizes)
+    if changed.cell_from_camera is None:
+        frame = levelled(frame)
+    look = perception(region_in([frame]), sizes=changed.sizes).look([frame])
     outlines = [outline(face, frame) for face in all_faces(look)]
     return judged(outlines, changed.masks, variant)
 

@@ -12,6 +12,7 @@ from depal.logistics import shipped_deliveries
 from depal.perception.calibration import calibrate
 from depal.perception.faces import Look
 from depal.perception.pictures import PictureBook
+from depal.perception.rasters import Region
 from depal.ports import Frame
 from depal.simulation.imaging.photographs import book_of
 from depal.simulation.scenes import Kind, Scene, Severity, random_delivery, scene
@@ -28,18 +29,25 @@ FOREIGN = 0.18
 """So many boxes are replaced by products that no note and no picture book knows."""
 
 
-class Perceive(Protocol):
+class Looks(Protocol):
+    """Perception that has been told what it is told."""
+
+    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
+        """What is found in the frames of one look, one per camera."""
+        ...
+
+
+class Perception(Protocol):
     """Perception, as it is measured."""
 
     def __call__(
         self,
-        frames: Sequence[Frame],
-        expected: tuple[DeliveryLine, ...] | None,
-        book: PictureBook,
-        before: Look | None = None,
+        region: Region,
+        note: tuple[DeliveryLine, ...] | None = None,
+        book: PictureBook | None = None,
         sizes: tuple[Vector3, ...] | None = None,
-    ) -> Look:
-        """What is found in the frames of one look, one per camera."""
+    ) -> Looks:
+        """Makes ready for the first look; see `eye.open_eye`."""
         ...
 
 
@@ -114,12 +122,12 @@ def calibrated(made: Scene) -> tuple[Frame, ...]:
     return tuple(calibrate([frame], fiducials).applied(frame) for frame in made.frames)
 
 
-def measure(piece: Piece, perceive: Perceive, delivery: Delivery | None = None) -> Measured:
+def measure(piece: Piece, perception: Perception, delivery: Delivery | None = None) -> Measured:
     """Looks twice at a scene.
 
     Args:
         piece: which.
-        perceive: what is measured.
+        perception: what is measured.
         delivery: whose stack it is; the piece's own where none is given.
     """
     stacked = delivery or delivery_of(piece.seed)
@@ -128,12 +136,13 @@ def measure(piece: Piece, perceive: Perceive, delivery: Delivery | None = None) 
     truth = truth_of(made, products)
     book = book_of(products, piece.seed, known_share=1.0)
     note = made.note.lines if piece.noted else None
-    frames = calibrated(made)
+    frames, region = calibrated(made), Region.above(made.layout.pallet)
+    eye = perception(region, note, book)
     begun = time.perf_counter()
-    look = perceive(frames, note, book)
+    look = eye.look(frames)
     first = time.perf_counter() - begun
     begun = time.perf_counter()
-    perceive(frames, note, book, look)
+    eye.look(frames, look)
     later = time.perf_counter() - begun
     visible = sum(face.counts for face in truth.faces)
     return Measured(piece, visible, scored(look, truth), first, later)

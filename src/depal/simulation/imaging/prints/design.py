@@ -15,6 +15,10 @@ Colour = tuple[int, int, int]
 FAMILY_DIGITS = 10
 """Products whose 14 digits begin with the same ten share their artwork."""
 
+OWN = 4
+"""A range has so many colours of its products' own; with words and amounts there are more looks
+than the numbers of a range can have, so that no two of its products look the same."""
+
 KRAFT: Colour = (193, 154, 107)
 WHITE: Colour = (240, 238, 232)
 
@@ -57,7 +61,8 @@ _VARIETIES = (
     "Harvest",
     "Pure",
 )
-_CONTENTS = ("6 x 1 kg", "12 x 400 g", "10 x 500 g", "24 x 330 ml", "8 x 750 g", "20 x 250 g")
+_COUNTS = ("6", "8", "10", "12", "20", "24")
+_AMOUNTS = ("250 g", "400 g", "750 g", "1 kg")
 
 
 class Stock(Enum):
@@ -122,10 +127,23 @@ def design_of(gtin: str) -> Design:
     ground, dark, light = _PALETTES[int(family.integers(len(_PALETTES)))]
     brand = _pick(family, _BEGINNINGS) + _pick(family, _ENDINGS)
     accents = family.permutation(len(_ACCENTS))
-    own = np.random.default_rng(_seed(gtin.zfill(14)))
-    accent = _ACCENTS[int(accents[own.integers(4)])]
-    variety, contents = _pick(own, _VARIETIES), _pick(own, _CONTENTS)
-    return Design(stock, motif, brand, ground, dark, light, accent, variety, contents, seed)
+    looks = family.permutation(OWN * len(_VARIETIES) * len(_COUNTS) * len(_AMOUNTS))
+    look = int(looks[int(gtin.zfill(14)[FAMILY_DIGITS:-1])])
+    look, own = divmod(look, OWN)
+    look, word = divmod(look, len(_VARIETIES))
+    count, amount = divmod(look, len(_AMOUNTS))
+    return Design(
+        stock,
+        motif,
+        brand,
+        ground,
+        dark,
+        light,
+        _ACCENTS[int(accents[own])],
+        _VARIETIES[word],
+        f"{_COUNTS[count]} x {_AMOUNTS[amount]}",
+        seed,
+    )
 
 
 def _pick(random: np.random.Generator, words: tuple[str, ...]) -> str:
