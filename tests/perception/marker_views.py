@@ -9,10 +9,10 @@ from depal.geometry import Pose
 from depal.logistics import shipped_deliveries
 from depal.ports import Frame
 from depal.simulation.cases import Case, cases_of
-from depal.simulation.imaging.camera import CameraModel
-from depal.simulation.imaging.mesh import Mesh
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.scenes.scene import parked
+from depal.simulation.world import Snapshot
 
 HIGHEST = max(
     shipped_deliveries(),
@@ -34,11 +34,11 @@ def cases(name: str, share: float = 1.0) -> tuple[Case, ...]:
 
 
 @functools.cache
-def drawn(name: str, share: float) -> tuple[CellScene, Mesh]:
+def drawn(name: str, share: float) -> tuple[CellScene, Snapshot]:
     """A cell with a load, the arm parked."""
     layout, load = layout_of(name), cases(name, share)
     scene = CellScene(layout, load)
-    return scene, scene.at(parked(layout, load))
+    return scene, parked(layout, load)
 
 
 def mount_of(camera: str, name: str = "default") -> CameraMount:
@@ -55,8 +55,8 @@ def frame_of(
     moved: Pose | None = None,
 ) -> Frame:
     """One picture; a camera that was moved says that it still stands where the cell file has it."""
-    scene, mesh = drawn(name, share)
+    scene, snapshot = drawn(name, share)
     mount = mount_of(camera, name)
     there = replace(mount, cell_from_camera=mount.cell_from_camera @ (moved or Pose()))
-    frame = CameraModel(scene, there, 5).frame(mesh, 0.5 * number, number)
+    frame = CameraModel(scene, there, 5).frame(snapshot, 0.5 * number, number)
     return replace(frame, cell_from_camera=mount.cell_from_camera)
