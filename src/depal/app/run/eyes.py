@@ -11,7 +11,7 @@ from depal.perception.calibration import Calibration, calibrate
 from depal.perception.faces import Face, Look
 from depal.perception.frames.checks import problems_of
 from depal.perception.memory import Memory
-from depal.perception.observing import Known, Observer
+from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import Gallery, gallery_of
@@ -36,6 +36,7 @@ class Observing:
         self._observer = Observer(Region.above(layout.pallet))
         self._gallery: tuple[PictureBook, Gallery] | None = None
         self._previous: tuple[Frame, ...] = ()
+        self._before: Observation | None = None
 
     def eyes(self) -> Eyes:
         """For the cell's sight."""
@@ -48,11 +49,12 @@ class Observing:
         book: PictureBook,
         before: Look | None,
     ) -> Look:
-        """The boxes that these frames show."""
-        del before
+        """The boxes that these frames show; what looks as before is taken over from there."""
         products: tuple[Product, ...] = tuple(line.product for line in expected or ())
         known = Known(products, gallery=self._prints(book))
-        return self._observer.look(self._true(frames), known)
+        kept = None if before is None else self._before
+        self._before = self._observer.look(self._true(frames), known, kept)
+        return self._before.look
 
     def rest(
         self, frames: Sequence[Frame], boxes: Sequence[OrientedBox]
