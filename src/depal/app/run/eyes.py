@@ -35,8 +35,8 @@ class Observing:
         self._calibrations = tuple(calibrations)
         self._observer = Observer(Region.above(layout.pallet))
         self._gallery: tuple[PictureBook, Gallery] | None = None
+        self._last: Observation | None = None
         self._previous: tuple[Frame, ...] = ()
-        self._before: Observation | None = None
 
     def eyes(self) -> Eyes:
         """For the cell's sight."""
@@ -50,11 +50,11 @@ class Observing:
         before: Look | None,
     ) -> Look:
         """The boxes that these frames show; what looks as before is taken over from there."""
-        products: tuple[Product, ...] = tuple(line.product for line in expected or ())
-        known = Known(products, gallery=self._prints(book))
-        kept = None if before is None else self._before
-        self._before = self._observer.look(self._true(frames), known, kept)
-        return self._before.look
+        lines = tuple(expected or ())
+        known = Known(tuple(line.product for line in lines), gallery=self._prints(book, lines))
+        last = self._last if before is not None else None
+        self._last = self._observer.look(self._true(frames), known, last)
+        return self._last.look
 
     def rest(
         self, frames: Sequence[Frame], boxes: Sequence[OrientedBox]
@@ -87,12 +87,12 @@ class Observing:
             known.applied(frame) for known, frame in zip(self._calibrations, frames, strict=True)
         ]
 
-    def _prints(self, book: PictureBook) -> Gallery | None:
+    def _prints(self, book: PictureBook, lines: tuple[DeliveryLine, ...]) -> Gallery | None:
         """The book's prints, prepared once for each state of it."""
         if not book.entries:
             return None
         if self._gallery is None or self._gallery[0] is not book:
-            self._gallery = (book, gallery_of(book))
+            self._gallery = (book, gallery_of(book, lines or None))
         return self._gallery[1]
 
 

@@ -1,16 +1,15 @@
 """Perception as it is measured and shown: an observer with what it is told before a look."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from depal.domain import DeliveryLine
 from depal.geometry import Vector3
 from depal.perception.faces import Look
-from depal.perception.observing import Known, Observer
+from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import gallery_of
-from depal.perception.relations import relations_of
 from depal.ports import Frame
 
 
@@ -21,22 +20,22 @@ class Eye:
     Attributes:
         observer: finds the boxes.
         known: what it is told.
+        last: what the last look has made of its frames.
     """
 
     observer: Observer
     known: Known = field(default_factory=Known)
+    last: Observation | None = None
 
-    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
+    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
         """What is found in the frames of one look, one per camera.
 
         Args:
             frames: with their calibration.
-            before: the look before at the same pallet.
+            anew: whether nothing is taken over from the look before.
         """
-        del before
-        look = self.observer.look(frames, self.known)
-        on_top, occludes = relations_of(look.boxes)
-        return replace(look, on_top=on_top, occludes=occludes)
+        self.last = self.observer.look(frames, self.known, None if anew else self.last)
+        return self.last.look
 
 
 def open_eye(

@@ -32,8 +32,8 @@ FOREIGN = 0.18
 class Looks(Protocol):
     """Perception that has been told what it is told."""
 
-    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
-        """What is found in the frames of one look, one per camera."""
+    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
+        """What is found in the frames of one look; anew, or by what has changed since the last."""
         ...
 
 
@@ -142,7 +142,7 @@ def measure(piece: Piece, perception: Perception, delivery: Delivery | None = No
     look = eye.look(frames)
     first = time.perf_counter() - begun
     begun = time.perf_counter()
-    eye.look(frames, look)
+    eye.look(frames, anew=False)
     later = time.perf_counter() - begun
     visible = sum(face.counts for face in truth.faces)
     return Measured(piece, visible, scored(look, truth), first, later)
