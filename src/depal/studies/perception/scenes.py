@@ -143,7 +143,7 @@ def after_a_pick(made: Scene) -> tuple[Frame, ...]:
     snapshot = replace(parked(made.layout, cases), removed=(gone,))
     drawn, wear = CellScene(made.layout, cases), Wear(shapes, WEAR[made.severity], made.seed)
     return tuple(
-        CameraModel(drawn, mount, wear, made.seed, made.severity).frame(snapshot, 10.0, 1)
+        CameraModel(drawn, mount, made.seed, made.severity, wear).frame(snapshot, 10.0, 1)
         for mount in made.layout.cameras
     )
 
