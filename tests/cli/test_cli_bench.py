@@ -152,6 +152,18 @@ def test_the_figures_of_a_run_are_those_of_its_outcome() -> None:
     ]
 
 
+def test_a_run_by_camera_is_measured_by_the_run_that_knows_the_truth() -> None:
+    """Its rate and its real time as shares, its losses as they are."""
+    truth = outcome_of(("b1", "b2"), wall_seconds=3.0)
+    camera = outcome_of(("b1", "b2"), wall_seconds=6.0, sim_seconds=36.0)
+    figures = {figure.name: figure for figure in run_figures.camera_figures(truth, camera)}
+    assert figures["d by camera: boxes stored"].value == 100.0
+    assert figures["d by camera: real time, of the truth's"].value == 2.0
+    assert figures["d by camera: rate, of the truth's"].value == pytest.approx(200 / 3)
+    missed = [figure.name for figure in figures.values() if not figure.met]
+    assert missed == ["d by camera: rate, of the truth's"]
+
+
 def test_the_rank_of_a_box_that_never_left_is_not_known() -> None:
     """And such a figure is missed."""
     outcome = outcome_of(("b2", "b1", "b3"))

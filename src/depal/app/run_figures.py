@@ -1,4 +1,4 @@
-"""What `depal bench simulation` says of whole runs: a real delivery twice, and the paper's case."""
+"""What `depal bench simulation` says of whole runs: a delivery by truth, by camera; case 2."""
 
 import math
 import resource
@@ -12,8 +12,9 @@ import numpy as np
 from depal.app.run.case2 import NAME as CASE2
 from depal.app.run.job import NONE, prepared, run_job
 from depal.app.run.summary import Outcome
-from depal.app.run.values import Job, Options
+from depal.app.run.values import CAMERA, Job, Options
 from depal.domain import BoxId
+from depal.errors import MissingPartError
 from depal.logistics.store import random_requests
 from depal.studies import paper
 from depal.studies.bench import Figure, Peer
@@ -49,11 +50,53 @@ def run_figures(seed: int = 0, progress: Progress = no_progress) -> list[Figure]
     ]
     outcomes = []
     for done, prepare in enumerate(jobs):
-        progress(done, len(jobs))
+        progress(done, len(jobs) + 1)
         outcomes.append(run_job(prepare()))
-    progress(len(jobs), len(jobs))
+    progress(len(jobs), len(jobs) + 1)
     first, second, *cases = outcomes
-    return [*delivery_figures(first, second), *case2_figures(*cases), _memory()]
+    seen = _by_camera(job)
+    progress(len(jobs) + 1, len(jobs) + 1)
+    return [
+        *delivery_figures(first, second),
+        *([] if seen is None else camera_figures(second, seen)),
+        *case2_figures(*cases),
+        _memory(),
+    ]
+
+
+def _by_camera(job: Job) -> Outcome | None:
+    """The same run, seen by the cell's cameras; None where there is no perception."""
+    try:
+        return run_job(replace(job, perception=CAMERA))
+    except MissingPartError:
+        return None
+
+
+def camera_figures(truth: Outcome, camera: Outcome) -> list[Figure]:
+    """Of a run that sees with its cameras, beside the same run that knows the truth."""
+    name, boxes = f"{camera.delivery} by camera", camera.boxes
+    counts = {
+        "lost": camera.lost,
+        "collisions": len(camera.referee.collisions),
+        "not where the books say": len(camera.disagreements),
+    }
+    rate = 100 * camera.boxes_per_hour / truth.boxes_per_hour if truth.boxes_per_hour else math.nan
+    return [
+        Figure(f"{name}: boxes stored", 100 * camera.stored / boxes, "%", 97.0, "higher", boxes),
+        *(
+            Figure(f"{name}: {what}", float(count), "", 0.0, "lower", boxes)
+            for what, count in counts.items()
+        ),
+        Figure(f"{name}: rate, of the truth's", rate, "%", 85.0, "higher", 1),
+        Figure(
+            f"{name}: real time, of the truth's",
+            camera.wall_seconds / truth.wall_seconds,
+            "x",
+            2.5,
+            "lower",
+            1,
+        ),
+    ]
 
 
 def delivery_figures(first: Outcome, second: Outcome) -> list[Figure]:

@@ -47,9 +47,8 @@ class BrightCards:
     def __init__(self, *_told: object, **_sizes: object) -> None:
         """Needs to be told nothing."""
 
-    def look(self, frames: Sequence[Frame], before: Look | None = None) -> Look:
+    def look(self, frames: Sequence[Frame]) -> Look:
         """Every bright patch as a face."""
-        del before
         return Look((), faces=bright_cards(frames[0]))
 
 

@@ -22,6 +22,7 @@ from depal.studies.perception.scenes import (
     Perception,
     Piece,
     measure,
+    measure_times,
     pieces,
 )
 from depal.studies.sweep import Progress, no_progress, sweep
@@ -92,7 +93,7 @@ def bench_perception(
     timed = []
     for number, (piece, delivery) in enumerate(busy, start=len(asked)):
         progress(number, total)
-        timed.append(measure(piece, perception, delivery))
+        timed.append(measure_times(piece, perception, delivery))
     frame_scores = {}
     for number, (name, frame) in enumerate(real.items(), start=len(asked) + len(busy)):
         progress(number, total)

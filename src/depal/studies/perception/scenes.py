@@ -1,21 +1,27 @@
 """Simulated scenes that perception is measured on, none of them used to tune it."""
 
+import math
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from depal.cell.files import shipped_cell
 from depal.domain import Delivery, DeliveryLine
 from depal.geometry import Vector3
 from depal.logistics import shipped_deliveries
-from depal.perception.calibration import calibrate
+from depal.perception.calibration import Calibration, calibrate
 from depal.perception.faces import Look
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.ports import Frame
+from depal.simulation.cases import Case
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.photographs import book_of
+from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes import Kind, Scene, Severity, random_delivery, scene
+from depal.simulation.scenes.scene import parked
 from depal.studies.perception.score import Score, scored
 from depal.studies.perception.truth import truth_of
 
@@ -32,8 +38,8 @@ FOREIGN = 0.18
 class Looks(Protocol):
     """Perception that has been told what it is told."""
 
-    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
-        """What is found in the frames of one look; anew, or by what has changed since the last."""
+    def look(self, frames: Sequence[Frame]) -> Look:
+        """What is found in the frames of one look, one per camera; it knows the look before."""
         ...
 
 
@@ -70,21 +76,21 @@ class Piece:
 
 @dataclass(frozen=True, slots=True)
 class Measured:
-    """What two looks at a scene are worth.
+    """What a look at a scene is worth.
 
     Attributes:
         piece: the scene.
         visible: how many faces must be found.
-        score: of the first look.
-        first: what the first look took [s].
-        later: what a look took that knew the first [s].
+        score: of the look.
+        first: what the look took [s].
+        later: what a look took after that, when a box had gone; NaN where there was none [s].
     """
 
     piece: Piece
     visible: int
     score: Score
     first: float
-    later: float
+    later: float = math.nan
 
 
 def pieces(severity: Severity, scenes: int, seed: int = 0, *, noted: bool = True) -> list[Piece]:
@@ -118,12 +124,32 @@ def scene_of(piece: Piece, delivery: Delivery | None = None) -> Scene:
 
 def calibrated(made: Scene) -> tuple[Frame, ...]:
     """The frames with the pose and the depth scale that the cell's markers tell of each camera."""
-    fiducials = made.layout.fiducials
-    return tuple(calibrate([frame], fiducials).applied(frame) for frame in made.frames)
+    return tuple(c.applied(f) for c, f in zip(calibrations(made), made.frames, strict=True))
+
+
+def calibrations(made: Scene) -> tuple[Calibration, ...]:
+    """What the cell's markers tell of each camera."""
+    return tuple(calibrate([frame], made.layout.fiducials) for frame in made.frames)
+
+
+def after_a_pick(made: Scene) -> tuple[Frame, ...]:
+    """What the cameras show when the box with the highest top has gone."""
+    cases = tuple(
+        Case(index, box.gtin, 1.0, box.shape) for index, box in enumerate(made.truth.boxes)
+    )
+    shapes = [case.shape for case in cases]
+    tops = [float(shape.corners[:, 2].max()) for shape in shapes]
+    gone = tops.index(max(tops))
+    snapshot = replace(parked(made.layout, cases), removed=(gone,))
+    drawn, wear = CellScene(made.layout, cases), Wear(shapes, WEAR[made.severity], made.seed)
+    return tuple(
+        CameraModel(drawn, mount, made.seed, made.severity, wear).frame(snapshot, 10.0, 1)
+        for mount in made.layout.cameras
+    )
 
 
 def measure(piece: Piece, perception: Perception, delivery: Delivery | None = None) -> Measured:
-    """Looks twice at a scene.
+    """Looks at a scene.
 
     Args:
         piece: which.
@@ -134,15 +160,32 @@ def measure(piece: Piece, perception: Perception, delivery: Delivery | None = No
     made = scene_of(piece, stacked)
     products = [line.product for line in stacked.lines]
     truth = truth_of(made, products)
-    book = book_of(products, piece.seed, known_share=1.0)
+    eye = _told(made, stacked, piece, perception)
+    seconds, look = _timed(eye, calibrated(made))
+    visible = sum(face.counts for face in truth.faces)
+    return Measured(piece, visible, scored(look, truth), seconds)
+
+
+def measure_times(piece: Piece, perception: Perception, delivery: Delivery) -> Measured:
+    """The same, and a later look when a box has gone."""
+    first = measure(piece, perception, delivery)
+    made = scene_of(piece, delivery)
+    known, eye = calibrations(made), _told(made, delivery, piece, perception)
+    eye.look([c.applied(frame) for c, frame in zip(known, made.frames, strict=True)])
+    later = [c.applied(frame) for c, frame in zip(known, after_a_pick(made), strict=True)]
+    seconds, _ = _timed(eye, later)
+    return replace(first, later=seconds)
+
+
+def _told(made: Scene, delivery: Delivery, piece: Piece, perception: Perception) -> Looks:
+    """Perception, told what it may know of a scene."""
+    book = book_of([line.product for line in delivery.lines], piece.seed, known_share=1.0)
     note = made.note.lines if piece.noted else None
-    frames, region = calibrated(made), Region.above(made.layout.pallet)
-    eye = perception(region, note, book)
+    return perception(Region.above(made.layout.pallet), note, book)
+
+
+def _timed(eye: Looks, frames: Sequence[Frame]) -> tuple[float, Look]:
+    """A look and how long it took [s]."""
     begun = time.perf_counter()
     look = eye.look(frames)
-    first = time.perf_counter() - begun
-    begun = time.perf_counter()
-    eye.look(frames, anew=False)
-    later = time.perf_counter() - begun
-    visible = sum(face.counts for face in truth.faces)
-    return Measured(piece, visible, scored(look, truth), first, later)
+    return time.perf_counter() - begun, look
