@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from depal.app.run.values import Job
-from depal.cell.sight import Book, CameraSight, Eyes
+from depal.cell.sight import CameraSight, Eyes
 from depal.domain import DeliveryLine, Gtin
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox, Pose
@@ -86,6 +86,30 @@ class Mimic:
             x, y, z = found[0].shape.centre
             found.append(_seen(OrientedBox.upright((x, y, z + 0.4), (0.2, 0.2, 0.15)), 0.55))
         return Look(tuple(found))
+
+    def rest(
+        self, frames: Sequence[Frame], boxes: Sequence[OrientedBox]
+    ) -> tuple[OrientedBox, ...]:
+        """Visible boxes that no believed box explains, as depths would show them."""
+        del frames
+        sight = TruthSight(self.cell.world, _Still(), SightSettings(share=0.02))
+        steps = (np.arange(8) + 0.5) / 8 - 0.5
+        grid = np.stack(np.meshgrid(steps, steps, steps), axis=-1).reshape(-1, 3)
+        out = []
+        for index in sorted(sight.visible_boxes()):
+            pose, size = self._truth(index)
+            points = (grid * np.array(size)) @ np.array(pose.rotation).T
+            points += np.array(pose.translation)
+            free = np.ones(len(points), dtype=bool)
+            for box in boxes:
+                inverse = box.pose.inverse
+                local = points @ np.array(inverse.rotation).T + np.array(inverse.translation)
+                free &= ~(np.abs(local) < np.array(box.size) / 2 + 0.03).all(axis=1)
+            if free.sum() > 4:
+                low, high = points[free].min(axis=0), points[free].max(axis=0)
+                middle = tuple(((low + high) / 2).tolist())
+                out.append(OrientedBox.upright(middle, tuple((high - low + 0.02).tolist())))
+        return tuple(out)
 
     def _happens(self, index: int, number: int, kind: int, share: float) -> bool:
         period = 0 if kind > 4 else number // LASTS
@@ -172,9 +196,10 @@ def mimicking(failures: Failures | None = None):  # noqa: ANN201 - a callable of
     """What a run sees with."""
 
     def seeing(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
-        eyes = Eyes(Mimic(cell, failures or Failures(), job.seed))
+        mimic = Mimic(cell, failures or Failures(), job.seed)
+        eyes = Eyes(mimic, mimic.rest)
         cameras = [QuickCamera(clock, cell)]
         memory = Memory(places=job.named)
-        return CameraSight(cameras, eyes, Book(PictureBook()), job.delivery.lines, clock, memory)
+        return CameraSight(cameras, eyes, PictureBook(), job.delivery.lines, clock, memory)
 
     return seeing

@@ -77,6 +77,7 @@ def outcome(
         wishes=wishes,
         questions=(Asked(question, 1.0, "taken", 21.0),),
         referee=Summary({"trolley_1/level_1": 1}, collisions, 12.0, (), (), ()),
+        differences=(),
         disagreements=differs,
         sim_seconds=100.0,
         waiting_seconds=waiting,

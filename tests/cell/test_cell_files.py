@@ -353,3 +353,31 @@ def test_quarter_turns_are_exact(roll: int, pitch: int, yaw: int) -> None:
     """Right angles in a file stay right angles in the cell."""
     pose = turned((0.0, 0.0, 0.0), roll=90 * roll, pitch=90 * pitch, yaw=90 * yaw)
     assert sorted(abs(entry) for row in pose.rotation for entry in row) == [0.0] * 6 + [1.0] * 3
+
+
+def test_a_fiducial_lies_on_the_floor_or_hangs_upright() -> None:
+    """Its own frame: x right and y down as one looks at it, z into its plate."""
+    cell = shipped_cell()
+    flat, hung = cell.fiducials[0], cell.fiducials[5]
+    assert flat.cell_from_marker.rotation == ((0, -1, 0), (-1, 0, 0), (0, 0, -1))
+    assert hung.cell_from_marker.rotation == ((0, 0, 1), (-1, 0, 0), (0, -1, 0))
+    text = edited("normal: [0, 0, 1]}", "normal: [0, 0, 0.5], turn: 90}")
+    turned_once = cell_of_yaml(text, "").fiducials[0].cell_from_marker
+    assert turned_once.rotation == ((-1, 0, 0), (0, 1, 0), (0, 0, -1))
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "said"),
+    [
+        ("{id: 1, size: 0.15", "{id: 0, size: 0.15", "0 is already the pattern of line"),
+        ("{id: 1, size: 0.15", "{id: 50, size: 0.15", "50 is above 49"),
+        ("normal: [0, 0, 1]}", "normal: [0, 0, 0]}", "points nowhere; expected a direction"),
+        ("normal: [0, 0, 1]}", "normal: [0, 1]}", "2 numbers"),
+        ("{id: 1, size: 0.15", "{id: 1, size: 0", "fiducials[1].size"),
+    ],
+)
+def test_a_fiducial_that_cannot_be_is_told(old: str, new: str, said: str) -> None:
+    """One problem each."""
+    (problem,) = told(edited(old, new))
+    assert "fiducials[" in problem
+    assert said in problem

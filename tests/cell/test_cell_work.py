@@ -20,10 +20,12 @@ from cells_at_work import (
     exchanged_by,
     gtin,
     name,
+    note,
 )
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from depal.cell.primitives.seeing import ABSENT
 from depal.cell.workplace import Settings
 from depal.domain import PlaceId, Recognition, Request
 from depal.executive import events as ev
@@ -40,6 +42,11 @@ SHELF = (PlaceId("shelf/level_1"), PlaceId("shelf/level_2"))
 def texts(cell: Cell) -> list[str]:
     """What the person was asked."""
     return [question.text for question in cell.person.asked]
+
+
+def refusing() -> FakePerson:
+    """A person who gives the careful answer."""
+    return FakePerson(lambda question: question.choices[-1])
 
 
 # All goes well
@@ -136,7 +143,7 @@ def test_where_the_reader_sees_no_product_of_the_note_a_person_says_which_it_is(
     def answer(question: Question) -> str:
         return gtin(2) if question.id == "product/b2" else question.choices[0]
 
-    reader = FakeReader([("4006381333931",)] * 9)
+    reader = FakeReader([("4006381333931",), ()])  # once: it may be a misread
     cell = Cell(2, unknown=(2,), reader=reader, person=FakePerson(answer)).works()
     cell.assert_whole()
     assert set(cell.fates.values()) == {STORED}
@@ -146,6 +153,77 @@ def test_where_the_reader_sees_no_product_of_the_note_a_person_says_which_it_is(
     assert cell.person.asked[0].choices == (gtin(1), gtin(2), "I cannot tell")
     assert cell.booked["b2"] == TROLLEYS[1]
     assert cell.times.shares(cell.ended)["waiting for people"] == pytest.approx(20.0)
+
+
+def test_a_box_whose_code_is_not_on_the_note_is_set_aside_without_a_question() -> None:
+    """Read from two sides; the reason names the product."""
+    reader = FakeReader([("4006381333931",)] * 9)
+    cell = Cell(2, unknown=(2,), reader=reader).works()
+    cell.assert_whole()
+    assert cell.fates == {"b1": STORED, "b2": ASIDE}
+    (aside,) = [d for d in cell.work.departures.sequence if d.fate is ASIDE]
+    assert aside.reason == "product 4006381333931 is not on the note"
+    assert texts(cell) == []
+
+
+def test_a_box_that_does_not_weigh_what_its_name_says_is_shown_to_the_reader() -> None:
+    """Where the code is another product's that weighs so, it is stored as that."""
+    cell = Cell(2, reader=FakeReader([(gtin(2),)]), person=refusing())
+    cell.work.delivery = note(2)
+    light, heavy = cell.work.delivery.lines
+    product = dataclasses.replace(light.product, mass=9.0)
+    lines = (dataclasses.replace(light, product=product), dataclasses.replace(heavy, count=2))
+    cell.work.delivery = dataclasses.replace(cell.work.delivery, lines=lines)
+    cell.works()
+    assert cell.fates == {"b1": STORED, "b2": STORED}
+    assert [d.gtin for d in cell.work.departures.sequence] == [gtin(2), gtin(2)]
+    assert "read_barcode(b1)" in cell.started
+    assert "read_barcode(b2)" not in cell.started
+
+
+def test_a_box_whose_code_and_weight_contradict_each_other_is_set_aside() -> None:
+    """Nothing is stored under a name that something speaks against."""
+    cell = Cell(1, reader=FakeReader([(gtin(1),)]))
+    (line,) = cell.work.delivery.lines
+    product = dataclasses.replace(line.product, mass=9.0)
+    lines = (dataclasses.replace(line, product=product),)
+    cell.work.delivery = dataclasses.replace(cell.work.delivery, lines=lines)
+    cell.works()
+    assert cell.fates == {"b1": ASIDE}
+    (aside,) = cell.work.departures.sequence
+    assert "it weighs 4.0 kg, product product-1 weighs 9.0 kg" in aside.reason
+
+
+def test_one_case_too_many_is_set_aside() -> None:
+    """The one that is taken last: the note promises one."""
+    cell = Cell(2, reader=FakeReader([(gtin(1),)]), person=refusing())
+    cell.sight.script = [
+        tuple(Recognition(box.id, box.shape, gtin(1)) for box in cell.sight.script[0] or ())
+    ]
+    cell.works()
+    assert sorted(cell.fates.values(), key=str) == [ASIDE, STORED]
+    (aside,) = [d for d in cell.work.departures.sequence if d.fate is ASIDE]
+    assert "the note promises 1 of product product-1, this is one more" in aside.reason
+
+
+def test_a_box_that_the_note_promises_and_no_look_shows_is_asked_for() -> None:
+    """Once everything else is gone; a person says that it is missing."""
+    cell = Cell(2, person=FakePerson(lambda question: question.choices[-1]))
+    cell.sight.script = [cell.sight.script[0][:1]]  # type: ignore[index]
+    cell.works()
+    assert cell.fates == {"b1": STORED}
+    assert texts(cell) == [
+        "The note promises one more case of product 2 (product-2), and none is seen. "
+        "Please take it off the pallet if it is there."
+    ]
+
+
+def test_a_box_that_is_none_is_forgotten() -> None:
+    """A person says that there is nothing where the cell sees a box."""
+    person = FakePerson(lambda question: question.choices[-1])
+    cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4), 0.0)), person=person).works()
+    assert cell.fates == {}
+    assert len(cell.work.pile) == 0
 
 
 def test_a_box_that_nobody_can_tell_is_set_aside() -> None:
@@ -197,7 +275,8 @@ def test_a_box_that_cannot_be_sucked_is_left_to_a_person() -> None:
     assert set(cell.fates.values()) - {PERSON} == {STORED}
     assert list(cell.fates)[-1] == first
     (question,) = cell.person.asked
-    assert (question.about, question.choices) == (first, (TAKEN,))
+    assert (question.about, question.choices) == (first, (TAKEN, ABSENT))
+    assert question.at is not None
     assert f"cannot take box {first}" in question.text
 
 

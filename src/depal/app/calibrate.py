@@ -21,8 +21,10 @@ from depal.perception.calibration import LIMIT, Calibration, calibrate, checked,
 from depal.perception.frames import frame_folders, read_frame_folder
 from depal.ports import Frame
 from depal.simulation.cases import cases_of
-from depal.simulation.imaging.camera import CameraModel
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.severity import Severity
+from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.scene import parked
 
 Pictures = Mapping[str, tuple[Frame, ...]]
@@ -86,10 +88,11 @@ def simulated_pictures(
     fits = [one for one in shipped_deliveries() if one.pallet_size == layout.pallet.size]
     cases = cases_of(fits[0], fits[0].stack or (), layout) if fits else ()
     drawn = CellScene(layout, cases)
-    mesh = drawn.at(parked(layout, cases))
+    snapshot, severity = parked(layout, cases), Severity.NORMAL
+    wear = Wear([case.shape for case in cases], WEAR[severity], seed)
     return {
         mount.name: tuple(
-            CameraModel(drawn, mount, seed).frame(mesh, 0.5 * number, number)
+            CameraModel(drawn, mount, wear, seed, severity).frame(snapshot, 0.5 * number, number)
             for number in range(count)
         )
         for mount in mounts

@@ -14,6 +14,12 @@ from depal.ports import TAKEN, Question
 STORE, ASIDE, EMPTY = "store", "set_aside", "depalletize"
 
 
+SEEN_TO, HOPELESS = "I have seen to it", "that cannot be helped now"
+
+HELP = 2
+"""A person is asked so often to see to the same thing before the run ends."""
+
+
 class Answers:
     """Looks for faults after a step of the executive, and answers them by tasks."""
 
@@ -28,6 +34,7 @@ class Answers:
         self._work = work
         self._promises = promises
         self._answered = answered
+        self._help, self._waiting = 0, False
         self._handing: set[asyncio.Task[None]] = set()
         self._trees: dict[int, int] = {}
         self._why: dict[int, str] = {}
@@ -56,8 +63,7 @@ class Answers:
             if tree.withdrawn is not None:
                 continue
             if schema == EMPTY and state.facts.get(f"{args[0]}.fault"):
-                # Nobody can see or choose any more: what has begun ends, then the run does.
-                runtime.withdraw(number, str(state.facts[f"{args[0]}.fault"]))
+                self._held(number, args[0], str(state.facts[f"{args[0]}.fault"]))
             if schema not in {STORE, ASIDE}:
                 continue
             box = BoxId(args[0])
@@ -67,6 +73,39 @@ class Answers:
             fault = state.facts.get(f"{box}.fault")
             if fault:
                 self._give_up(number, schema, box, self._why.pop(number, str(fault)))
+
+    def _held(self, number: int, pallet: str, fault: str) -> None:
+        """Nobody can see or choose any more: nothing is grasped until a person has seen to it.
+
+        What stays so, or what the person cannot change, ends the run once what has begun is done.
+        """
+        if self._waiting:
+            return
+        if self._help >= HELP:
+            self._work.runtime.withdraw(number, fault)
+            return
+        self._help += 1
+        self._waiting = True
+        why = self._why.pop(number, fault)
+        task = asyncio.get_running_loop().create_task(self._have_seen_to(number, pallet, why))
+        self._handing.add(task)
+        task.add_done_callback(self._handed_over)
+
+    async def _have_seen_to(self, number: int, pallet: str, why: str) -> None:
+        question = Question(
+            f"sight/{pallet}/{self._help}",
+            f"The cell is held: {why}. Please see to it.",
+            (SEEN_TO, HOPELESS),
+            pallet,
+        )
+        answer = await self._work.questions.ask(question)
+        self._waiting = False
+        if answer == SEEN_TO:
+            facts = [(f"{pallet}.fault", None), (f"{pallet}.attempts", 0)]
+            self._work.runtime.change(facts, "person")
+        else:
+            self._help = HELP
+            self._work.runtime.withdraw(number, why)
 
     def _let_lie(self, number: int, box: BoxId) -> None:
         self._work.runtime.withdraw(number, "it lies on the floor")

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 
+from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.workplace import Workplace
@@ -36,9 +37,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     before = desk.planner.planned
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
-        reason = work.left_behind.get(box.id)
-        if isinstance(box, Recognition):
-            reason = work.impossible.get(box.gtin, reason)
+        reason = why_left(work, box)
         if reason is not None:
             return Refused(reason)
         plan = desk.picking.try_pick(box)
@@ -46,6 +45,33 @@ def choose(work: Workplace, desk: Desk) -> Choice:
 
     decision = select(graph, work.wishes.open(work.now), rule_of(work), grasp_for)
     return Choice(decision, desk.planner.planned - before)
+
+
+def why_left(work: Workplace, box: Perceived) -> str | None:
+    """Why a box is not to be taken whatever the arm can do; None where it may be."""
+    if box.id in work.left_behind:
+        return work.left_behind[box.id]
+    if box.id in work.pile.hidden:
+        return UNSEEN
+    return work.impossible.get(box.gtin) if isinstance(box, Recognition) else why_vague(work, box)
+
+
+def why_vague(work: Workplace, box: Perceived) -> str | None:
+    """Why a box that nobody could name may be no box, or two: the note knows no such size."""
+    unsized = box.id in work.pile.unsized
+    if not work.delivery.lines or plausible(work.delivery, box.shape.size, unsized=unsized):
+        return None
+    return ODD
+
+
+def may_pass(work: Workplace, box: Perceived) -> bool:
+    """Whether another look may show that a box can be taken after all, or that it is none."""
+    vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
+    return box.id not in work.left_behind and (vague or box.id in work.pile.hidden)
+
+
+UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
+"""Reasons that another look may take away."""
 
 
 def rule_of(work: Workplace) -> ScoreRule:

@@ -60,6 +60,8 @@ class Pile:
 
         Args:
             deck: what the boxes stand on, where it is known.
+
+        `hidden`, `unsized` and `obstacles` are those of the last look.
         """
         self._deck = deck
         self._memory = Memory(patience=MISSED)
@@ -69,15 +71,16 @@ class Pile:
         self._read: dict[BoxId, Gtin] = {}
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
-        self.moves = 0
+        self.obstacles: tuple[OrientedBox, ...] = ()
 
     def see(self, view: View) -> None:
         """Takes over what a look has found."""
         found = {box.id: box for box in view.boxes if box.id not in self._taken}
         if view.remembered:
-            self.moves += bool(view.moved) or set(found) != set(self._boxes)
             self._boxes = found
             self.hidden, self.unsized = view.hidden, view.unsized
+            if view.obstacles is not None:
+                self.obstacles = view.obstacles
             return
         named = [(box.id, _seen(box)) for box in found.values()]
         self._memory = self._memory.told(named, view.taken)

@@ -71,6 +71,13 @@ class Wishes:
             before = max(0, wish.boxes_before - 1)  # the box itself was counted
             self._wishes[best] = replace(wish, served=now, box=box, boxes_before=before)
 
+    def doubted(self, box: BoxId) -> None:
+        """A box that had left is not the product that it was taken for: it has served nothing."""
+        for number, wish in enumerate(self._wishes):
+            if wish.box == box and wish.request.box != box:
+                before = wish.boxes_before + 1  # it has left, and did not serve
+                self._wishes[number] = replace(wish, served=None, box=None, boxes_before=before)
+
     def _waiting(self, now: float) -> list[tuple[int, Wish]]:
         return [
             (number, wish)

@@ -1,7 +1,8 @@
 """Everything that a primitive works with: the ports, and what the cell believes."""
 
 import asyncio
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
@@ -10,11 +11,23 @@ from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
-from depal.domain import BoxId, CellLayout, Delivery, Grasp, Gtin, Perceived, PlaceId, Product
+from depal.domain import (
+    Approach,
+    BoxId,
+    CellLayout,
+    Delivery,
+    Grasp,
+    Gtin,
+    Perceived,
+    PlaceId,
+    Product,
+    Recognition,
+)
 from depal.executive.engine import Call
 from depal.executive.events import Change
 from depal.executive.runtime import Runtime
 from depal.geometry import Vector3
+from depal.perception.memory import Tally, tally_of
 from depal.ports import (
     Arm,
     BarcodeReader,
@@ -89,6 +102,21 @@ class Held:
     mass: float
 
 
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A product of which the note promises another number than was found.
+
+    Attributes:
+        gtin: which.
+        promised: by the note.
+        found: on the pallet.
+    """
+
+    gtin: Gtin
+    promised: int
+    found: int
+
+
 class Ending:
     """Something that begins and ends again and again, and can be waited for."""
 
@@ -115,6 +143,10 @@ class Ending:
             await self._over.wait()
 
 
+def nothing_learned(_box: BoxId, _product: Product) -> None:
+    """A sight that keeps no pictures."""
+
+
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -133,6 +165,10 @@ class Workplace:
         held: the box in the gripper.
         left_behind: boxes that stay on the pallet, and why.
         aside_reasons: why boxes are set aside.
+        doubted: boxes that were not as they looked: they are looked at before another try.
+        strangers: what the reader saw on boxes that are not on the note.
+        seen_to: whether a person has looked for what the note promises and no look shows.
+        learn: told the product of a box that was shown to the reader.
     """
 
     layout: CellLayout
@@ -147,6 +183,10 @@ class Workplace:
     held: Held | None = None
     left_behind: dict[BoxId, str] = field(default_factory=dict)
     aside_reasons: dict[BoxId, str] = field(default_factory=dict)
+    doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
+    strangers: dict[BoxId, str] = field(default_factory=dict)
+    seen_to: bool = False
+    learn: Callable[[BoxId, Product], None] = nothing_learned
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -214,6 +254,41 @@ class Workplace:
         self.ended(box, Fate.LOST, reason="fell out of the gripper")
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
         self.allocate(Call("recover", (box,), FIRST))
+
+    def mistrust(self, box: BoxId, reasons: Iterable[str]) -> None:
+        """A box in the gripper is not what it was taken for: it will be shown to the reader."""
+        self.pile.doubt(box)
+        self.wishes.doubted(box)
+        self.aside_reasons[box] = "; ".join(reasons)
+        facts = [(f"{box}.known", False), (f"{box}.product", None), (f"{box}.target", None)]
+        self.tell(facts, "scale")
+
+    def tally(self) -> Tally:
+        """The note beside what has left the pallet and what is believed to stand there."""
+        there = [box.gtin if isinstance(box, Recognition) else None for box in self.pile.boxes]
+        return tally_of(self.delivery.lines, (*self.pile.left_as, *there))
+
+    def surplus(self, gtin: Gtin) -> str | None:
+        """Why a box that has left cannot be of a product: there were too many already."""
+        left = [each for each in self.pile.left_as if each is not None]
+        for surplus in tally_of(self.delivery.lines, left).surplus:
+            if surplus.gtin == gtin:
+                return str(surplus)
+        return None
+
+    def note_differences(self) -> tuple[Difference, ...]:
+        """Where the note and what was found differ, product by product."""
+        found = Counter(gtin for gtin in self.pile.left_as if gtin is not None)
+        found.update(Gtin(code) for code in self.strangers.values())
+        tally = self.tally()
+        if not tally.missing and not tally.surplus and not self.strangers:
+            return ()  # boxes that nobody has named may be what seems to be missing
+        promised = {line.product.gtin: line.count for line in self.delivery.lines}
+        return tuple(
+            Difference(gtin, promised.get(gtin, 0), found[gtin])
+            for gtin in sorted({*promised, *found})
+            if promised.get(gtin, 0) != found[gtin]
+        )
 
     def exchange_of(self, trolley: str) -> Ending:
         """The exchange of a trolley."""

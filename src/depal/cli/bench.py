@@ -92,7 +92,9 @@ def simulation(
 @bench.command()
 def perception(
     severity: Annotated[str, typer.Option(help="easy, normal, hard or all.")] = "all",
-    scenes: Annotated[int, typer.Option(help="How many of each severity; 0: only --frames.", min=0)] = 201,
+    scenes: Annotated[
+        int, typer.Option(help="How many of each severity; 0: only --frames.", min=0)
+    ] = 201,
     seed: Seed = 0,
     frames: Annotated[
         list[Path] | None,

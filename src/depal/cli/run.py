@@ -25,7 +25,12 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     ] = "",
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
     policy: Annotated[str, typer.Option(help="Which boxes may be taken: paper.")] = "paper",
-    perception: Annotated[str, typer.Option(help="Where boxes come from: truth.")] = "truth",
+    perception: Annotated[
+        str, typer.Option(help="Where boxes come from: camera, or truth.")
+    ] = "camera",
+    severity: Annotated[
+        str, typer.Option(help="How far cameras and prints are from ideal: easy, normal, hard.")
+    ] = "normal",
     seed: Seed = 0,
     speed: Annotated[float, typer.Option(help="Share of the arm's full speed, in (0, 1].")] = 1.0,
     record: Annotated[
@@ -47,6 +52,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         w=w,
         policy=policy,
         perception=perception,
+        severity=severity,
         seed=seed,
         speed=speed,
         record=record,

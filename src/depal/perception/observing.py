@@ -17,6 +17,7 @@ from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
 from depal.perception.rasters import Region, rasters_of
 from depal.perception.recognition import Gallery, identify, sightings
 from depal.perception.recognition.rectifying import rectified
+from depal.perception.relations import relations_of
 from depal.ports import Frame
 
 Flags = npt.NDArray[np.bool_]
@@ -105,7 +106,8 @@ class Observer:
             found.append((*kept, *new))
         faces = (tuple(found[0]), tuple(found[1]))
         boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
-        return Observation(Look(boxes, faces=(*faces[0], *faces[1])), rasters, faces)
+        look = Look(boxes, *relations_of(boxes), faces=(*faces[0], *faces[1]))
+        return Observation(look, rasters, faces)
 
     def _faces(
         self, raster: Raster, kept: Sequence[Face], frames: Sequence[Frame], known: Known

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from depal.domain import BoxId, Perceived
+from depal.geometry import OrientedBox
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,6 +20,8 @@ class View:
         hidden: of what is believed, what this look did not show.
         unsized: boxes of which an edge could not be measured and is a guess.
         moved: boxes that this look shows elsewhere than those before.
+        obstacles: solids where something stands that no box explains, in the cell frame; None
+            where this look cannot tell.
     """
 
     taken: float
@@ -27,6 +30,7 @@ class View:
     hidden: frozenset[BoxId] = frozenset()
     unsized: frozenset[BoxId] = frozenset()
     moved: frozenset[BoxId] = frozenset()
+    obstacles: tuple[OrientedBox, ...] | None = ()
 
 
 class Sight(Protocol):

@@ -128,7 +128,9 @@ def test_the_spread_of_a_pose_is_what_noise_makes_of_it() -> None:
     assert spread(corners, K, pose, room) == pytest.approx(worst, rel=0.25)
 
 
-@pytest.mark.parametrize("name", SHIPPED)
+@pytest.mark.parametrize(
+    "name", [SHIPPED[0], *(pytest.param(name, marks=pytest.mark.slow) for name in SHIPPED[1:])]
+)
 @pytest.mark.parametrize("camera", CAMERAS)
 def test_every_camera_sees_enough_markers_above_and_below_a_plane(name: str, camera: str) -> None:
     """Four and more that are in no one plane, behind the highest load and the parked arm."""

@@ -157,7 +157,9 @@ async def _run(
     watch: bool,
 ) -> tuple[Outcome, Film]:
     clock = LoopClock()
-    cell = build(job.layout, job.delivery, job.seed, clock=clock, sight=job.sight)
+    cell = build(
+        job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity
+    )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.delivery], places, seed=job.seed)
     times = Timekeeper(clock)
@@ -165,10 +167,11 @@ async def _run(
     ports = timed(_ports(cell, store, sight, clock), times)
     questions = Questions(ports.person, clock)
     work = Workplace(job.layout, job.delivery, ports, job.settings, questions, job.impossible)
-    if isinstance(sight, CameraSight):
-        sight.bind(work.pile)
     planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
+    if isinstance(sight, CameraSight):
+        sight.bind(work.pile, desk.viewing.covered)
+        work.learn = sight.learn
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
@@ -233,7 +236,10 @@ def _outcome(
         wishes=tuple(work.wishes),
         questions=work.questions.all,
         referee=cell.referee.summary(),
-        disagreements=disagreements(cell.referee, sequence, left, stack),
+        differences=work.note_differences(),
+        disagreements=disagreements(
+            cell.referee, sequence, left, stack, {each.gtin for each in work.note_differences()}
+        ),
         sim_seconds=work.now,
         waiting_seconds=shares[WAITING],
         wall_seconds=0.0,

@@ -1,6 +1,6 @@
 """What came of a run: the cell's books, the referee's word on them, and the report."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from rich.console import RenderableType
@@ -11,7 +11,8 @@ from depal.app.reports.report import Report, plain_table
 from depal.cell.departures import Departure, Fate
 from depal.cell.questions import Asked
 from depal.cell.wishes import Wish
-from depal.domain import BoxId
+from depal.cell.workplace import Difference
+from depal.domain import BoxId, Gtin
 from depal.simulation.referee import FLOOR, HAND, PALLET, REMOVED, Referee, Summary
 
 UNSEEN = "unseen"
@@ -39,6 +40,7 @@ class Outcome:
         wishes: the requests and what became of them.
         questions: to the person.
         referee: the truth at the end.
+        differences: where the note and what was found differ.
         disagreements: where the referee and the cell's books differ, in words.
         sim_seconds: simulated time.
         waiting_seconds: of it, waiting for people with the arm at rest.
@@ -60,6 +62,7 @@ class Outcome:
     wishes: tuple[Wish, ...]
     questions: tuple[Asked, ...]
     referee: Summary
+    differences: tuple[Difference, ...]
     disagreements: tuple[str, ...]
     sim_seconds: float
     waiting_seconds: float
@@ -110,6 +113,7 @@ def disagreements(
     departures: Sequence[Departure],
     left: Sequence[Left],
     stack: Mapping[BoxId, int],
+    flagged: Collection[Gtin] = (),
 ) -> tuple[str, ...]:
     """Where the truth differs from what the cell believes of each box, in words.
 
@@ -118,6 +122,7 @@ def disagreements(
         departures: the boxes that left.
         left: the boxes that did not, those that nobody has seen included.
         stack: which box of the stack each name means.
+        flagged: products of which the cell itself says that note and boxes differ.
     """
     expected: dict[BoxId, tuple[str, ...]] = {entry.box: (PALLET,) for entry in left}
     for departure in departures:
@@ -134,11 +139,14 @@ def disagreements(
         where = "nowhere" if index is None else referee.where(index)
         if where not in places:
             found.append(f"box {box}: the books say {' or '.join(places)}, it is in {where}")
-    return (*found, *_misnamed(referee, departures, stack))
+    return (*found, *_misnamed(referee, departures, stack, flagged))
 
 
 def _misnamed(
-    referee: Referee, departures: Sequence[Departure], stack: Mapping[BoxId, int]
+    referee: Referee,
+    departures: Sequence[Departure],
+    stack: Mapping[BoxId, int],
+    flagged: Collection[Gtin],
 ) -> list[str]:
     """Boxes that were stored as another product than they are."""
     found = []
@@ -147,7 +155,7 @@ def _misnamed(
         if departure.fate is not Fate.STORED or index is None:
             continue
         truth = referee.product(index)
-        if departure.gtin != truth:
+        if departure.gtin != truth and departure.gtin not in flagged:
             found.append(f"box {departure.box}: stored as {departure.gtin}, it is {truth}")
     return found
 
@@ -166,6 +174,10 @@ def run_report(outcome: Outcome, perception: str) -> Report:
     table.row("real seconds", f"{outcome.wall_seconds:.1f}")
     shown: list[RenderableType] = [table]
     shown += [Text(f"{box}: {what}: {reason}") for box, what, reason in outcome.exceptions]
+    shown += [
+        Text(f"product {d.gtin}: the note promises {d.promised}, {d.found} were found")
+        for d in outcome.differences
+    ]
     shown += [Text(f"{wish.request.wanted}: {_served(wish)}") for wish in outcome.wishes]
     shown += [Text(line, style="red") for line in outcome.disagreements]
     shown += [
@@ -193,6 +205,7 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
             {"box": box, "outcome": what, "reason": reason}
             for box, what, reason in outcome.exceptions
         ],
+        "note_differences": [_difference(outcome, each) for each in outcome.differences],
         "sequence": [_departure(departure, outcome.stack) for departure in outcome.departures],
         "requests": [_wish(wish) for wish in outcome.wishes],
         "questions": [
@@ -228,6 +241,17 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
         "seed": outcome.seed,
         "speed": outcome.speed,
         "events_sha256": outcome.events_sha256,
+    }
+
+
+def _difference(outcome: Outcome, each: Difference) -> dict[str, Json]:
+    """A product of which the note is wrong, or a box of it was taken for another's."""
+    boxes = [gone.box for gone in outcome.departures if gone.gtin == each.gtin]
+    return {
+        "gtin": each.gtin,
+        "promised": each.promised,
+        "found": each.found,
+        "boxes": list(map(str, boxes)),
     }
 
 

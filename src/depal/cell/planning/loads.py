@@ -4,6 +4,7 @@ import math
 
 import numpy as np
 
+from depal.cell.identity import plausible
 from depal.cell.planning.plans import Load, PickPlan
 from depal.cell.planning.timing import stands_at
 from depal.cell.workplace import Held, Workplace
@@ -12,9 +13,6 @@ from depal.geometry import Vector3
 
 HEAVIEST = 600.0
 """An unknown box is not expected to be denser than this [kg/m^3]."""
-
-SAME_SIZE = 0.02
-"""A detected box may be a product whose edges differ by less than this [m]."""
 
 
 def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
@@ -47,16 +45,18 @@ def _felt(held: Held, work: Workplace) -> float:
 
 def expected_mass(box: Perceived, delivery: Delivery) -> float:
     """What a box should weigh: its product, or the heaviest of the note of its size [kg]."""
+    _, most = expected_masses(box, delivery)
+    return heaviest(box.shape.size) if most is None else most
+
+
+def expected_masses(box: Perceived, delivery: Delivery) -> tuple[float, float] | tuple[None, None]:
+    """The least and the most that a box can weigh, by what it is or by its size [kg]."""
     products = delivery.products
     if isinstance(box, Recognition) and box.gtin in products:
-        return products[box.gtin].mass
-    size = sorted(box.shape.size)
-    fitting = [
-        product.mass
-        for product in products.values()
-        if max(abs(a - b) for a, b in zip(sorted(product.size), size, strict=True)) < SAME_SIZE
-    ]
-    return max(fitting, default=heaviest(box.shape.size))
+        mass = products[box.gtin].mass
+        return mass, mass
+    masses = [product.mass for product in plausible(delivery, box.shape.size)]
+    return (min(masses), max(masses)) if masses else (None, None)
 
 
 def heaviest(size: Vector3) -> float:

@@ -2,11 +2,12 @@
 
 import asyncio
 import math
+from collections.abc import Iterator
 
 import numpy as np
 
 from depal.cell.planning.facing import pallet_front
-from depal.cell.planning.loads import expected_mass, heaviest
+from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
 from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
@@ -14,7 +15,7 @@ from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
 from depal.motion.grasping import Holding, grasps
-from depal.motion.moves import OPEN, Kind, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, NoMotion, Part, Pick
 from depal.ports import Trajectory
 
 MOVED = 0.008
@@ -60,7 +61,13 @@ class Picking:
         """Every way to hold a box on the pallet, best first."""
         work = self._work
         front = pallet_front(work.layout.pallet)
-        return grasps(box.shape, expected_mass(box, work.delivery), work.layout.tool, front)
+        found = grasps(box.shape, expected_mass(box, work.delivery), work.layout.tool, front)
+        failed = work.doubted.get(box.id, frozenset())
+        return tuple(sorted(found, key=lambda grasp: grasp.approach in failed))
+
+    def masses(self, box: Perceived) -> tuple[float | None, float | None]:
+        """The least and the most that a box can weigh, by the note [kg]."""
+        return expected_masses(box, self._work.delivery)
 
     def _timed(self, box: Perceived, mass: float, pick: Pick) -> PickPlan | str:
         planner = self._planner
@@ -125,8 +132,11 @@ class Picking:
             self._promises.keep_pick(plan)
         return plan
 
-    def draw_back(self, plan: PickPlan) -> Trajectory | None:
-        """Back along the straight approach, with an empty hand."""
-        back = plan.pick.approach[-1].path[::-1]
-        part = Part(Kind.STRAIGHT, rebased(back.copy(), self._planner.here))
-        return self._planner.timing.along([part])
+    def way_back(self, plan: PickPlan) -> Iterator[Trajectory]:
+        """Back along the whole approach, with an empty hand: first straight off the box."""
+        for part in reversed(plan.pick.approach):
+            back = rebased(part.path[::-1].copy(), self._planner.here)
+            trajectory = self._planner.timing.along([Part(part.kind, back)])
+            if trajectory is None:
+                return
+            yield trajectory

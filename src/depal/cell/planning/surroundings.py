@@ -53,6 +53,9 @@ class Surroundings:
             for box in pile.boxes
             if (column := self._column(box.shape)) is not None
         ]
+        cases += [
+            (f"something before the camera {k}", solid) for k, solid in enumerate(pile.obstacles)
+        ]
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
         return Scene.of(self._fixed, cases)
 

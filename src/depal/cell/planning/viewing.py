@@ -5,7 +5,8 @@ import math
 
 from depal.cell.planning.facing import pallet_heading
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId
+from depal.domain import BoxId, Joints
+from depal.motion.collision.values import Array
 from depal.motion.kinematics import Kinematics
 from depal.ports import Trajectory
 
@@ -33,11 +34,17 @@ class Viewing:
             delay = self._clear_at(trajectory)
             asyncio.get_running_loop().call_later(delay, gone.set)
 
+    def covered(self) -> bool:
+        """Whether the arm is before the pallet now."""
+        return not self._is_away(self._work.ports.arm.joints())
+
+    def _is_away(self, q: Joints | Array) -> bool:
+        p = self._kinematics.flange(q).translation
+        turn = math.atan2(p[1], p[0]) - pallet_heading(self._work.layout.pallet)
+        return abs(math.atan2(math.sin(turn), math.cos(turn))) > AWAY
+
     def _clear_at(self, trajectory: Trajectory) -> float:
-        pallet = pallet_heading(self._work.layout.pallet)
         for time, q in zip(trajectory.times, trajectory.positions, strict=True):
-            p = self._kinematics.flange(q).translation
-            turn = math.atan2(p[1], p[0]) - pallet
-            if abs(math.atan2(math.sin(turn), math.cos(turn))) > AWAY:
+            if self._is_away(q):
                 return float(time)
         return trajectory.duration

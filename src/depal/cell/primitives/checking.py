@@ -1,20 +1,32 @@
 """The primitives of `check`: show the held box to the reader, read its barcode."""
 
+from collections import Counter
+from dataclasses import replace
+
 from depal.cell.guards import Guards
+from depal.cell.identity import resized, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
+from depal.cell.sight.naming import turned_like
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Gtin
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
+from depal.logistics.gtin import gtin_fault
 from depal.ports import Question
 
 READER = "reader"
 
 UNKNOWN = "I cannot tell"
+
+TWICE = 2
+"""A code that is not on the note is believed when it was read so often."""
+
+ANY = 0.25
+"""The edges of a product that was told replace those that were seen, off by so much even [m]."""
 
 
 class Checking:
@@ -26,6 +38,7 @@ class Checking:
         self._desk = desk
         self._guards = guards
         self._shown: ShowPlan | None = None
+        self._refused: dict[BoxId, str] = {}
 
     async def show(self, context: Context) -> Report:
         """Carries the held box to the reader."""
@@ -46,17 +59,26 @@ class Checking:
         """Reads side by side until a code is one of the delivery's products."""
         box = BoxId(context.args["Box"])
         plan, work = self._shown, self._work
-        seen: list[str] = []
+        if box in self._refused:
+            return Report(outcome=Outcome.FAILED, reason=self._refused[box])
+        seen: Counter[str] = Counter()
         for turn in (None, *(plan.turns if plan is not None else ())):
             if turn is not None:
                 stopped = await work.ports.arm.follow(turn, self._guards.holding())
                 if stopped is not None:
                     return await report_loss(work, box, stopped)
             codes = await work.ports.reader.read()
-            seen += [code for code in codes if code not in seen]
+            seen.update(codes)
             known = [Gtin(code) for code in codes if Gtin(code) in work.delivery.products]
             if len(set(known)) == 1:
-                return self._is(box, known[0])
+                return self._judged(box, known[0])
+        self._shown = None  # every side was shown
+        strange = [
+            code for code, times in seen.items() if times >= TWICE and gtin_fault(code) is None
+        ]
+        if len(strange) == 1:
+            work.strangers[box] = strange[0]
+            return self._refuse(box, f"product {strange[0]} is not on the note")
         return await self._ask(box, f"the reader saw {', '.join(seen) or 'no code'}")
 
     async def _ask(self, box: BoxId, why: str) -> Report:
@@ -70,11 +92,36 @@ class Checking:
         )
         answer = await self._work.questions.ask(question)
         if answer in products:
-            return self._is(box, Gtin(answer))
-        return Report(outcome=Outcome.FAILED, reason=f"nobody knows the product: {why}")
+            return self._judged(box, Gtin(answer))
+        return self._refuse(box, f"nobody knows the product: {why}")
 
-    def _is(self, box: BoxId, gtin: Gtin) -> Report:
+    def _judged(self, box: BoxId, gtin: Gtin) -> Report:
+        """Somebody has told the product: it must weigh so, fit so, and be promised still."""
         work = self._work
+        product, held = work.delivery.products[gtin], work.held
+        if held is None:
+            return Report(outcome=Outcome.FAILED, reason=f"box {box} is not held")
+        mass = work.ports.arm.load()
+        work.held = held = replace(held, mass=mass)
+        # One edge may have been seen wrongly: a code and a weight that agree outweigh it.
+        reasons = why_not(product, held.size, mass, unsized=True)
+        if reasons:
+            return self._refuse(box, "; ".join(reasons))
         work.pile.identify(box, gtin)
+        too_many = work.surplus(gtin)
+        if too_many is not None:
+            return self._refuse(box, too_many)
+        size = turned_like(product.size, held.size, ANY)
+        if size is not None:
+            grasp = resized(held.grasp, held.size, size)
+            work.held = replace(held, size=size, grasp=grasp)
+        work.learn(box, product)
+        work.aside_reasons.pop(box, None)
         work.wishes.identified(box, gtin, work.now)
         return Report(((f"{box}.known", True), (f"{box}.product", str(gtin))))
+
+    def _refuse(self, box: BoxId, reason: str) -> Report:
+        """Nothing is stored under a name that something speaks against."""
+        before = self._work.aside_reasons.get(box)
+        self._refused[box] = f"{before}; {reason}" if before and before != reason else reason
+        return Report(outcome=Outcome.FAILED, reason=self._refused[box])

@@ -29,6 +29,9 @@ class Querying:
         reason = "no place was tried"
         for _ in range(1 + len(work.layout.storages)):
             found = await self._desk.carrying.find_place(box, places)
+            if work.product_of(box) != product:  # somebody has found out that it is another
+                self._desk.promises.release(box)
+                return Report(outcome=Outcome.FAILED, reason="it is another product after all")
             if not isinstance(found, str):
                 return Report(((f"{box}.target", found.place),))
             reason = found

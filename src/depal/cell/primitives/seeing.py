@@ -1,16 +1,28 @@
 """The primitives of `depalletize`: look, select, wait until the box has left."""
 
-from depal.cell.choosing import Choice, choose, priority_of
+from depal.cell.choosing import Choice, choose, may_pass, priority_of
 from depal.cell.departures import Fate
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Recognition
+from depal.domain import BoxId, Gtin, Recognition
 from depal.executive.engine import Call, Report
 from depal.executive.events import Change
 from depal.executive.runtime import Context
 from depal.ports import TAKEN, Question
 from depal.selection import Outcome as Selected
+
+AGAIN = 5
+"""Before a person is asked for a box that looks differ about, the cell looks so often again."""
+
+BLANK = 2
+"""Before a pallet that should hold boxes counts as empty, the cell looks so often again."""
+
+ABSENT = "it is not there"
+"""A person has looked, and there is no such box."""
+
+UNSHOWN = "unshown"
+"""What boxes are called that the note promises and no look shows, when a person is asked."""
 
 
 class Seeing:
@@ -21,20 +33,37 @@ class Seeing:
         self._work = work
         self._desk = desk
         self._notes = notes
+        self._again = self._blank = 0
 
     async def look(self, context: Context) -> Report:
         """Takes a picture and finds the boxes; what it learns of each is a fact of its own."""
         work = self._work
         view = await work.ports.sight.look()
         work.pile.see(view)
-        learned: list[Change] = []
-        for box in work.pile.boxes:
-            if isinstance(box, Recognition) and not context.facts.get(f"{box.id}.known"):
-                learned += [(f"{box.id}.known", True), (f"{box.id}.product", str(box.gtin))]
+        for box in view.moved:
+            work.left_behind.pop(box, None)  # what was not possible there may be here
+        learned = self._learned(context)
         if learned:
             work.tell(learned, "camera")
+        if len(work.pile):
+            self._blank = 0
         pallet = context.args["Pallet"]
-        return Report(((f"{pallet}.seen", True), (f"{pallet}.empty", not len(work.pile))))
+        empty = not len(work.pile) and (work.seen_to or not self._expected())
+        return Report(((f"{pallet}.seen", True), (f"{pallet}.empty", empty)))
+
+    def _learned(self, context: Context) -> list[Change]:
+        """What the picture tells of products; it may also take back what it told before."""
+        learned: list[Change] = []
+        for box in self._work.pile.boxes:
+            gtin = str(box.gtin) if isinstance(box, Recognition) else None
+            known = context.facts.get(f"{box.id}.product")
+            if gtin != known and not context.facts.get(f"{box.id}.taken"):
+                learned += [(f"{box.id}.known", gtin is not None), (f"{box.id}.product", gtin)]
+        return learned
+
+    def _expected(self) -> int:
+        """How many boxes of the note nobody has seen."""
+        return self._work.tally().missing
 
     async def select_box(self, context: Context) -> Report:
         """Algorithm 1; what cannot be grasped at all is left to a person."""
@@ -46,6 +75,7 @@ class Seeing:
         if decision.target is None or decision.grasp is None:
             return await self._stuck(choice, pallet)
         box = decision.target.id
+        self._again = 0
         self._desk.promises.keep_pick(decision.grasp)
         store = Call("store", (box,), priority_of(decision, box))
         return Report(((f"{pallet}.next", box),), allocate=(store,))
@@ -60,16 +90,57 @@ class Seeing:
     async def _stuck(self, choice: Choice, pallet: str) -> Report:
         """Nothing can be grasped: a person takes the box with the best score that is free."""
         verdicts = choice.decision.verdicts
+        unseen = ((f"{pallet}.seen", False),)
         if choice.decision.outcome is Selected.NOTHING_PERCEIVED or not verdicts:
-            return Report(((f"{pallet}.seen", False),), reason="no box is seen")
+            return Report(unseen, reason=await self._nothing_seen())
         free = [verdict for verdict in verdicts if not verdict.blockers] or list(verdicts)
+        vague = [verdict for verdict in free if may_pass(self._work, verdict.box)]
+        if vague and self._again < AGAIN:
+            self._again += 1  # another look may tell
+            return Report(unseen, reason=f"box {vague[0].box.id}: {vague[0].reason}")
+        self._again = 0
         box, reason = free[0].box, free[0].reason
         question = Question(
             f"take/{box.id}",
             f"The arm cannot take box {box.id}: {reason}. Please take it off the pallet.",
-            (TAKEN,),
+            (TAKEN, ABSENT),
             str(box.id),
+            box.shape.centre,
         )
-        await self._work.questions.ask(question)
-        self._work.ended(box.id, Fate.BY_PERSON, reason=reason)
-        return Report(((f"{pallet}.seen", False),), reason=reason)
+        if await self._work.questions.ask(question) == TAKEN:
+            self._work.ended(box.id, Fate.BY_PERSON, reason=reason)
+        else:
+            self._work.pile.forget(box.id, self._work.now)
+        return Report(unseen, reason=reason)
+
+    async def _nothing_seen(self) -> str:
+        """The pallet seems empty, and the note promises more: look again, then ask a person."""
+        work = self._work
+        if self._blank < BLANK:
+            self._blank += 1
+            return "no box is seen"
+        work.seen_to = True
+        number = 0
+        for gtin, count in sorted(work.tally().unseen.items()):
+            for _ in range(count):
+                number += 1
+                await self._ask_for(BoxId(f"{UNSHOWN} {number}"), gtin)
+        return "a person has looked"
+
+    async def _ask_for(self, box: BoxId, gtin: Gtin) -> None:
+        """A case that the note promises and no look shows: a person takes it, or it is missing."""
+        work = self._work
+        if work.tally().missing < 1:
+            return
+        reason = "no look showed it"
+        question = Question(
+            f"missing/{box}",
+            f"The note promises one more case of {work.delivery.products[gtin].name} ({gtin}), "
+            "and none is seen. Please take it off the pallet if it is there.",
+            (TAKEN, ABSENT),
+            str(box),
+            gtin=gtin,
+        )
+        if await work.questions.ask(question) == TAKEN:
+            work.ended(box, Fate.BY_PERSON, reason=reason)
+            work.pile.identify(box, gtin)

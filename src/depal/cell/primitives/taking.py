@@ -1,10 +1,13 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
+import asyncio
+
 from depal.cell.guards import Guards
+from depal.cell.identity import why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId
+from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
@@ -13,6 +16,15 @@ ARM_AT = "kr60.at"
 
 LIGHT = 0.25
 """Where less than this share of the expected mass hangs on the arm, it holds nothing."""
+
+NOTHING = 0.15
+"""Where nobody knows what to expect, less than this is nothing [kg]."""
+
+HEAVY, SPARE = 1.35, 0.5
+"""What weighs this much more than all that it can be, and so many kg, is more than one box."""
+
+SWINGING = 0.06
+"""After the lift the load swings so long before it is weighed [s]."""
 
 
 class Taking:
@@ -27,6 +39,9 @@ class Taking:
     async def reach(self, context: Context) -> Report:
         """Moves the gripper to the face of the box."""
         box = BoxId(context.args["Box"])
+        unlike = await self._looked_at_anew(box)
+        if unlike is not None:
+            return Report(outcome=Outcome.FAILED, reason=unlike)
         plan = await self._desk.picking.pick(box)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
@@ -47,25 +62,64 @@ class Taking:
         if not await ports.gripper.suck(plan.grasp.cups):
             return await self._let_go(plan, "the vacuum did not come")
         slipped = await ports.arm.follow(plan.lift, self._guards.holding())
+        await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
-        limit = self._work.layout.robot.payload - self._work.layout.tool.mass
-        if slipped is None and mass > limit:
-            slipped = f"{mass:.1f} kg is more than the arm may carry ({limit:.1f} kg)"
-        if slipped is None and mass < LIGHT * plan.mass:
-            slipped = f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
+        slipped = slipped or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped)
         self._work.lifted(box, plan.grasp, plan.box.shape.size, mass)
+        self._doubt_identity(plan, mass)
         return Report(((f"{box}.taken", True),))
 
+    async def _looked_at_anew(self, box: BoxId) -> str | None:
+        """After a try that failed a look comes before the next one; why that is hopeless."""
+        work = self._work
+        if box not in work.doubted:
+            return None
+        work.pile.see(await work.ports.sight.look())
+        if work.pile.get(box) is None or box in work.pile.hidden:
+            return f"box {box} is not seen on the pallet any more"
+        return None
+
+    def _wrong_weight(self, plan: PickPlan, mass: float) -> str | None:
+        """What hangs on the arm is nothing, too much, or more than one box."""
+        work = self._work
+        limit = work.layout.robot.payload - work.layout.tool.mass
+        if mass > limit:
+            return f"{mass:.1f} kg is more than the arm may carry ({limit:.1f} kg)"
+        least, most = self._desk.picking.masses(plan.box)
+        if mass < (NOTHING if least is None else LIGHT * least):
+            return f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
+        if most is not None and mass > HEAVY * most + SPARE:
+            return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
+        return None
+
+    def _doubt_identity(self, plan: PickPlan, mass: float) -> None:
+        """A box that the picture has named must weigh what the product does, and be on the note."""
+        work, box = self._work, plan.box
+        if not isinstance(box, Recognition):
+            return
+        product = work.delivery.products.get(box.gtin)
+        if product is None:
+            reasons: tuple[str, ...] = (f"product {box.gtin} is not on the note",)
+        else:
+            unsized = box.id in work.pile.unsized
+            reasons = why_not(product, box.shape.size, mass, unsized=unsized)
+            too_many = work.surplus(box.gtin)
+            reasons = (*reasons, too_many) if too_many else reasons
+        if reasons:
+            work.mistrust(box.id, reasons)
+            self._desk.promises.release(box.id)
+
     async def _let_go(self, plan: PickPlan, reason: str) -> Report:
-        """Vents, draws back, and lets the box be approached anew."""
-        ports = self._work.ports
+        """Vents, draws back out of the view, and lets the box be approached anew."""
+        ports, box = self._work.ports, plan.box.id
         await ports.gripper.release()
-        retreat = self._desk.picking.draw_back(plan)
-        if retreat is not None:
+        for retreat in self._desk.picking.way_back(plan):
             await ports.arm.follow(retreat)
-        self._desk.promises.forget_pick(plan.box.id)
+        self._desk.promises.forget_pick(box)
+        failed = self._work.doubted.get(box, frozenset())
+        self._work.doubted[box] = failed | {plan.grasp.approach}
         return Report(((ARM_AT, None),), Outcome.FAILED, reason)
 
     async def probe_arm(self, context: Context) -> Report:

@@ -1,14 +1,16 @@
 """The port `Sight` over the cell's cameras: frames, their checks, perception, memory."""
 
 import asyncio
+from collections import deque
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from depal.cell.pile import Pile
 from depal.cell.sight.naming import perceived
-from depal.domain import DeliveryLine
+from depal.domain import BoxId, DeliveryLine, Product
 from depal.errors import DeviceError
-from depal.perception.faces import Look
+from depal.geometry import OrientedBox
+from depal.perception.faces import Face, Look
 from depal.perception.memory import Memory, tally_of
 from depal.perception.pictures import PictureBook
 from depal.ports import Camera, Clock, Frame, View
@@ -21,19 +23,31 @@ Perceive = Callable[
 Check = Callable[[Sequence[Frame], float], Sequence[str]]
 """What is wrong with the frames of a look that was taken at this time [s], in words."""
 
+KEPT = 4
+"""The frames of so many looks are kept: a box is read some looks after it was seen."""
+
 FIRST, LATER = 1.2, 0.5
 """What computing is charged after the first look and after later ones [s]."""
 
 
-@dataclass(slots=True)
-class Book:
-    """The picture book that the cell works with; it grows.
+Rest = Callable[[Sequence[Frame], Sequence[OrientedBox]], tuple[OrientedBox, ...]]
+"""Solids where something stands in the frames of a look that none of these boxes explains."""
 
-    Attributes:
-        pictures: as they are now.
-    """
 
-    pictures: PictureBook
+Learn = Callable[[PictureBook, Product, Sequence[Face], Sequence[Frame]], PictureBook]
+"""A picture book with the faces of a box that turned out to be of a product."""
+
+
+def no_problem(_frames: Sequence[Frame], _at: float) -> tuple[str, ...]:
+    """A check that is content with everything."""
+    return ()
+
+
+def nothing_learned(
+    book: PictureBook, _product: Product, _faces: Sequence[Face], _frames: Sequence[Frame]
+) -> PictureBook:
+    """The book as it was."""
+    return book
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,11 +56,15 @@ class Eyes:
 
     Attributes:
         perceive: finds the boxes.
+        rest: finds what the boxes do not explain.
         check: finds what is wrong with the frames; nothing is made of frames that are.
+        learn: extends the picture book.
     """
 
     perceive: Perceive
-    check: Check = lambda frames, at: ()
+    rest: Rest
+    check: Check = no_problem
+    learn: Learn = nothing_learned
 
 
 class CameraSight:
@@ -56,7 +74,7 @@ class CameraSight:
         self,
         cameras: Sequence[Camera],
         eyes: Eyes,
-        book: Book,
+        book: PictureBook,
         note: tuple[DeliveryLine, ...] | None,
         clock: Clock,
         memory: Memory | None = None,
@@ -71,17 +89,23 @@ class CameraSight:
             clock: the loop's time.
             memory: names that were given in advance.
         """
-        self._cameras, self._eyes, self._book = tuple(cameras), eyes, book
+        self._cameras, self._eyes, self.book = tuple(cameras), eyes, book
         self._note, self._clock = note, clock
         self._pile: Pile | None = None
+        self._covered: Callable[[], bool] = lambda: False
         self.memory = memory or Memory()
-        self.frames: tuple[Frame, ...] = ()
+        self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
         self.last: Look | None = None
         self.spent: list[float] = []
 
-    def bind(self, pile: Pile) -> None:
-        """The pile knows which boxes were taken."""
-        self._pile = pile
+    def bind(self, pile: Pile, covered: Callable[[], bool]) -> None:
+        """Who knows the rest.
+
+        Args:
+            pile: knows which boxes were taken.
+            covered: whether the arm is before the pallet.
+        """
+        self._pile, self._covered = pile, covered
 
     async def look(self) -> View:
         """Looks; exposure and computing take the time that is charged for them.
@@ -97,20 +121,43 @@ class CameraSight:
             raise DeviceError("; ".join(problems))
         self._forget_taken()
         before = None if self.last is None else self._believed()
-        look = self._eyes.perceive(frames, self._expected(), self._book.pictures, before)
-        self.frames, self.last = tuple(frames), look
+        look = self._eyes.perceive(frames, self._expected(), self.book, before)
+        self._seen.append((taken, tuple(frames)))
+        self.last = look
         self.memory = self.memory.update(look, taken)
         return self._view(taken)
 
+    @property
+    def frames(self) -> tuple[Frame, ...]:
+        """Those of the last look; none before the first."""
+        return self._seen[-1][1] if self._seen else ()
+
+    def learn(self, name: BoxId, product: Product) -> None:
+        """The reader has told what a box is: its faces go into the picture book.
+
+        Args:
+            name: of a box that was lifted off not long ago.
+            product: what it is.
+        """
+        self._forget_taken()
+        box = next((box for box, _ in self.memory.gone if box.name == name), None)
+        frames = next((each for at, each in self._seen if box and at == box.last), None)
+        if box is not None and frames is not None:
+            self.book = self._eyes.learn(self.book, product, box.seen.faces, frames)
+
     def _view(self, taken: float) -> View:
         memory = self.memory
+        rest = None
+        if not self._covered():
+            rest = self._eyes.rest(self.frames, [box.seen.shape for box in memory])
         return View(
             taken,
-            tuple(perceived(box) for box in memory),
+            tuple(perceived(box, self._note) for box in memory),
             remembered=True,
             hidden=memory.hidden,
             unsized=frozenset(box.name for box in memory if not box.seen.sized),
             moved=memory.moved,
+            obstacles=rest,
         )
 
     def _forget_taken(self) -> None:

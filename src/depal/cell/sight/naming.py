@@ -1,12 +1,55 @@
 """From remembered boxes to what the selection works on."""
 
-from depal.domain import Detection, Perceived, Recognition
+from collections.abc import Sequence
+
+import numpy as np
+
+from depal.domain import DeliveryLine, Detection, Perceived, Recognition
+from depal.geometry import OrientedBox, Vector3
 from depal.perception.memory import Remembered
+from depal.perception.memory.anchors import resized_at_its_face
+
+ALIKE = 0.02
+"""A box whose edges are this near to those of a product on the note has that product's size [m]."""
+
+SAME = 0.004
+"""Products whose edges differ by less have one size [m]."""
 
 
-def perceived(box: Remembered) -> Perceived:
-    """A box with its name: recognised where its print could be believed, else detected."""
+def perceived(box: Remembered, note: Sequence[DeliveryLine] | None = None) -> Perceived:
+    """A box with its name: recognised where its print could be believed, else detected.
+
+    Args:
+        box: as all looks show it.
+        note: what may stand there; a box that is only detected takes the size of the products
+            that it can be, where they agree.
+    """
     seen = box.seen
-    if seen.gtin is None:
-        return Detection(box.name, seen.shape)
-    return Recognition(box.name, seen.shape, seen.gtin)
+    if seen.gtin is not None:
+        return Recognition(box.name, seen.shape, seen.gtin)
+    return Detection(box.name, _as_promised(seen.shape, note or ()) if seen.sized else seen.shape)
+
+
+def _as_promised(shape: OrientedBox, note: Sequence[DeliveryLine]) -> OrientedBox:
+    """The shape with the one size of the note that it can have; else as it was measured."""
+    fitting = {
+        turned
+        for line in note
+        if (turned := turned_like(line.product.size, shape.size)) is not None
+    }
+    if not fitting:
+        return shape
+    sizes = np.array(sorted(fitting))
+    if np.ptp(sizes, axis=0).max() > SAME:
+        return shape
+    a, b, c = sizes.mean(axis=0).tolist()
+    return resized_at_its_face(shape, (a, b, c))
+
+
+def turned_like(size: Vector3, measured: Vector3, alike: float = ALIKE) -> Vector3 | None:
+    """A case's size in the order of a measured box's axes, upright; None where it cannot be it."""
+    length, width, height = size
+    ways = [(length, width, height), (width, length, height)]
+    off = [max(abs(a - b) for a, b in zip(way, measured, strict=True)) for way in ways]
+    best = min(range(2), key=lambda k: (off[k], k))
+    return ways[best] if off[best] < alike else None

@@ -1,7 +1,7 @@
 """Perception as it is measured and shown: an observer with what it is told before a look."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from depal.domain import DeliveryLine
 from depal.geometry import Vector3
@@ -10,30 +10,32 @@ from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import gallery_of
-from depal.perception.relations import relations_of
 from depal.ports import Frame
 
 
 @dataclass(slots=True)
 class Eye:
-    """Looks at one pallet, each with what the look before has found.
+    """One pallet's worth of looks.
 
     Attributes:
         observer: finds the boxes.
         known: what it is told.
-        before: the look before.
+        last: what the last look has made of its frames.
     """
 
     observer: Observer
     known: Known = field(default_factory=Known)
-    before: Observation | None = None
+    last: Observation | None = None
 
-    def look(self, frames: Sequence[Frame]) -> Look:
-        """What is found in the frames of one look, one per camera, with their calibration."""
-        self.before = self.observer.look(frames, self.known, self.before)
-        look = self.before.look
-        on_top, occludes = relations_of(look.boxes)
-        return replace(look, on_top=on_top, occludes=occludes)
+    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
+        """What is found in the frames of one look, one per camera.
+
+        Args:
+            frames: with their calibration.
+            anew: whether nothing is taken over from the look before.
+        """
+        self.last = self.observer.look(frames, self.known, None if anew else self.last)
+        return self.last.look
 
 
 def open_eye(

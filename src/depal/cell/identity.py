@@ -1,0 +1,85 @@
+"""Whether a box can be the product that somebody says it is: by its size and by what it weighs."""
+
+import itertools
+from dataclasses import replace
+
+import numpy as np
+
+from depal.domain import Approach, Delivery, Grasp, Product
+from depal.geometry import Pose, Vector3
+
+MASS_SHARE, MASS_SPARE = 0.10, 0.2
+"""A box weighs what its product does within this share and so much more [kg]."""
+
+SIZE_SPARE = 0.03
+"""A measured edge is that of the product within this [m]."""
+
+EDGES = 3
+
+
+def why_not(
+    product: Product, size: Vector3, mass: float | None, *, unsized: bool = False
+) -> tuple[str, ...]:
+    """What speaks against a product.
+
+    Args:
+        product: what the box is said to be.
+        size: of the box as it was seen [m].
+        mass: as felt [kg]; None where it was not weighed.
+        unsized: whether one edge is a guess: then the other two count.
+
+    Returns:
+        Reasons; none where nothing speaks against it.
+    """
+    found = []
+    if not fits(product, size, unsized=unsized):
+        found.append(f"it is {_edges(size)}, product {product.gtin} is {_edges(product.size)}")
+    if mass is not None and not weighs_like(product, mass):
+        found.append(
+            f"it weighs {mass:.1f} kg, product {product.gtin} weighs {product.mass:.1f} kg"
+        )
+    return tuple(found)
+
+
+def weighs_like(product: Product, mass: float) -> bool:
+    """Whether a felt mass [kg] is that of a product."""
+    return abs(mass - product.mass) <= MASS_SHARE * product.mass + MASS_SPARE
+
+
+def fits(product: Product, size: Vector3, *, unsized: bool = False) -> bool:
+    """Whether a box of a seen size [m], however it lies, can be a case of a product."""
+    counted = EDGES - 1 if unsized else EDGES
+    return any(
+        sorted(abs(a - b) for a, b in zip(turned, size, strict=True))[counted - 1] <= SIZE_SPARE
+        for turned in itertools.permutations(product.size)
+    )
+
+
+def plausible(delivery: Delivery, size: Vector3, *, unsized: bool = False) -> tuple[Product, ...]:
+    """The products of the note that a box of this size can be."""
+    products = delivery.products.values()
+    return tuple(product for product in products if fits(product, size, unsized=unsized))
+
+
+def resized(grasp: Grasp, old: Vector3, new: Vector3) -> Grasp:
+    """A grasp of a box of which somebody has told the true size: the held face stays in place.
+
+    Args:
+        grasp: as it was planned.
+        old: the size that was believed [m].
+        new: the true one, along the same axes [m].
+    """
+    more = (np.array(new) - np.array(old)) / 2
+    at = np.array(grasp.box_from_flange.translation)
+    if grasp.approach is Approach.HORIZONTAL:
+        axis = int(np.argmax(np.abs(at[:2]) - np.array(old[:2]) / 2))
+    else:
+        axis = 2
+    shift = np.zeros(3)
+    shift[axis] = np.sign(at[axis]) * more[axis]
+    pose = Pose.from_arrays(at + shift, grasp.box_from_flange.rotation)
+    return replace(grasp, box_from_flange=pose)
+
+
+def _edges(size: Vector3) -> str:
+    return " x ".join(f"{1000 * edge:.0f}" for edge in size) + " mm"
