@@ -27,9 +27,9 @@ class Always:
     def __init__(self, *told: object, **more: object) -> None:
         """Needs to be told nothing."""
 
-    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
+    def look(self, frames: Sequence[Frame]) -> Look:
         """One named box."""
-        del frames, anew
+        del frames
         turn = ((0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0))
         name = Name(GTIN, "top", 0.9, certain=True)
         face = Face(Facing.TOP, Pose((1.5, 0.0, 0.3), turn), (0.3, 0.2), 0.91, name=name)

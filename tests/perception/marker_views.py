@@ -9,10 +9,11 @@ from depal.geometry import Pose
 from depal.logistics import shipped_deliveries
 from depal.ports import Frame
 from depal.simulation.cases import Case, cases_of
-from depal.simulation.imaging.camera import CameraModel
-from depal.simulation.imaging.mesh import Mesh
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.severity import Severity
 from depal.simulation.scenes.scene import parked
+from depal.simulation.world import Snapshot
 
 HIGHEST = max(
     shipped_deliveries(),
@@ -34,16 +35,21 @@ def cases(name: str, share: float = 1.0) -> tuple[Case, ...]:
 
 
 @functools.cache
-def drawn(name: str, share: float) -> tuple[CellScene, Mesh]:
+def drawn(name: str, share: float) -> tuple[CellScene, Snapshot]:
     """A cell with a load, the arm parked."""
     layout, load = layout_of(name), cases(name, share)
     scene = CellScene(layout, load)
-    return scene, scene.at(parked(layout, load))
+    return scene, parked(layout, load)
 
 
 def mount_of(camera: str, name: str = "default") -> CameraMount:
     """A camera of a cell."""
     return next(mount for mount in layout_of(name).cameras if mount.name == camera)
+
+
+def bias_of(camera: str, severity: Severity = Severity.NORMAL) -> float:
+    """The share by which every depth of a camera's frames is wrong."""
+    return CameraModel(drawn("default", 1.0)[0], mount_of(camera), 5, severity).bias
 
 
 @functools.cache
@@ -53,10 +59,11 @@ def frame_of(
     share: float = 1.0,
     name: str = "default",
     moved: Pose | None = None,
+    severity: Severity = Severity.NORMAL,
 ) -> Frame:
     """One picture; a camera that was moved says that it still stands where the cell file has it."""
-    scene, mesh = drawn(name, share)
+    scene, snapshot = drawn(name, share)
     mount = mount_of(camera, name)
     there = replace(mount, cell_from_camera=mount.cell_from_camera @ (moved or Pose()))
-    frame = CameraModel(scene, there, 5).frame(mesh, 0.5 * number, number)
+    frame = CameraModel(scene, there, 5, severity).frame(snapshot, 0.5 * number, number)
     return replace(frame, cell_from_camera=mount.cell_from_camera)

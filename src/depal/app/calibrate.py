@@ -23,8 +23,6 @@ from depal.ports import Frame
 from depal.simulation.cases import cases_of
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
-from depal.simulation.imaging.severity import Severity
-from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.scene import parked
 
 Pictures = Mapping[str, tuple[Frame, ...]]
@@ -88,14 +86,11 @@ def simulated_pictures(
     fits = [one for one in shipped_deliveries() if one.pallet_size == layout.pallet.size]
     cases = cases_of(fits[0], fits[0].stack or (), layout) if fits else ()
     drawn = CellScene(layout, cases)
-    snapshot, severity = parked(layout, cases), Severity.NORMAL
-    wear = Wear([case.shape for case in cases], WEAR[severity], seed)
+    snapshot = parked(layout, cases)
+    models = {mount.name: CameraModel(drawn, mount, seed) for mount in mounts}
     return {
-        mount.name: tuple(
-            CameraModel(drawn, mount, wear, seed, severity).frame(snapshot, 0.5 * number, number)
-            for number in range(count)
-        )
-        for mount in mounts
+        name: tuple(model.frame(snapshot, 0.5 * number, number) for number in range(count))
+        for name, model in models.items()
     }
 
 
@@ -122,7 +117,7 @@ def recorded_pictures(folder: Path, cameras: tuple[str, ...]) -> Pictures:
 
 def _calibrated(name: str, frames: tuple[Frame, ...], layout: CellLayout) -> Calibration:
     try:
-        return calibrate(frames, layout.fiducials)
+        return calibrate(frames, layout.fiducials, layout.fixtures)
     except FrameError as error:
         raise FrameError(f"camera {name}", error.problems) from error
 

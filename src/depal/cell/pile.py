@@ -61,7 +61,8 @@ class Pile:
         Args:
             deck: what the boxes stand on, where it is known.
 
-        `hidden`, `unsized` and `obstacles` are those of the last look.
+        `hidden`, `unsized` and `obstacles` are those of the last look; `bared` are boxes that have
+        left since: what stands below them nobody has seen yet.
         """
         self._deck = deck
         self._memory = Memory(patience=MISSED)
@@ -72,10 +73,13 @@ class Pile:
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
         self.obstacles: tuple[OrientedBox, ...] = ()
+        self.bared: dict[BoxId, OrientedBox] = {}
 
     def see(self, view: View) -> None:
         """Takes over what a look has found."""
         found = {box.id: box for box in view.boxes if box.id not in self._taken}
+        if view.obstacles is not None:
+            self.bared = {}
         if view.remembered:
             self._boxes = found
             self.hidden, self.unsized = view.hidden, view.unsized
@@ -93,6 +97,8 @@ class Pile:
         """A box was lifted off [s]."""
         if box not in self._taken:
             there = self.get(box)
+            if there is not None:
+                self.bared[box] = there.shape
             self._left[box] = there.gtin if isinstance(there, Recognition) else None
         self.forget(box, at)
 

@@ -147,6 +147,10 @@ def nothing_learned(_box: BoxId, _product: Product) -> None:
     """A sight that keeps no pictures."""
 
 
+def nothing_doubted() -> None:
+    """A sight that relies on nothing."""
+
+
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -169,6 +173,7 @@ class Workplace:
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
         learn: told the product of a box that was shown to the reader.
+        doubt: told when the next look must not rely on those before.
     """
 
     layout: CellLayout
@@ -187,6 +192,7 @@ class Workplace:
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
     learn: Callable[[BoxId, Product], None] = nothing_learned
+    doubt: Callable[[], None] = nothing_doubted
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None

@@ -8,8 +8,9 @@ from marker_views import layout_of, mount_of
 
 from depal.perception.calibration import Calibration, DepthScale
 from depal.perception.calibration.finding import expected
-from depal.perception.calibration.planes import PlaneDepth, plane_depths
+from depal.perception.calibration.planes import PlaneDepth, merged, plane_depth
 from depal.perception.calibration.scaling import scale_of
+from depal.perception.calibration.surfaces import surface_of
 
 SCALES = st.floats(0.98, 1.02)
 DEPTHS = st.lists(st.floats(0.8, 4.0), min_size=2, max_size=9)
@@ -17,7 +18,7 @@ DEPTHS = st.lists(st.floats(0.8, 4.0), min_size=2, max_size=9)
 
 def plane(true: float, scale: float, offset: float = 0.0, error: float = 0.001) -> PlaneDepth:
     """A plane as a camera with this scale and offset measures it."""
-    return PlaneDepth((true - offset) / scale, true, error, 20)
+    return PlaneDepth((true - offset) / scale, true, error)
 
 
 @given(SCALES, DEPTHS)
@@ -44,7 +45,7 @@ def test_one_plane_that_is_out_of_place_counts_little(scale: float, which: int, 
     """Less than two of its errors, however far it is."""
     planes = [plane(1.2 + 0.05 * number, scale) for number in range(7)]
     wrong = planes[which]
-    planes[which] = PlaneDepth(wrong.measured, wrong.true + off, wrong.error, wrong.blocks)
+    planes[which] = PlaneDepth(wrong.measured, wrong.true + off, wrong.error)
     assert scale_of(planes).scale == pytest.approx(scale, abs=0.002)
 
 
@@ -58,7 +59,7 @@ def test_the_error_covers_what_noise_does() -> None:
             error = 0.0008 * depth**2
             true = plane(depth, scale, error=error)
             noisy = true.measured + random.normal(0.0, error)
-            planes.append(PlaneDepth(noisy, depth, error, 20))
+            planes.append(PlaneDepth(noisy, depth, error))
         found = scale_of(planes)
         middle = 1.5 + found.offset
         apart = found.scale * middle + found.offset - scale * middle
@@ -94,8 +95,37 @@ def test_planes_are_measured_as_they_are_drawn(scale: float, camera: str, seed: 
         for one in layout.fiducials
         if one.id in there and one.cell_from_marker.translation[2] < 0.02
     ]
-    planes = plane_depths(depth, known.depth_k, mount.cell_from_camera, flat)
-    assert len(planes) == len(flat) >= 3
-    for found in planes:
+    assert len(flat) >= 3
+    for one in flat:
+        surface = surface_of(one, ())
+        found = plane_depth(depth, known.depth_k, mount.cell_from_camera, surface)
+        assert found is not None
         assert found.true / found.measured == pytest.approx(scale, abs=0.002)
         assert found.error < 0.005
+        assert merged([found, found]).measured == pytest.approx(found.measured)
+
+
+@given(SCALES, st.floats(0.0, 3.0))
+def test_depths_of_pixels_beside_are_no_scale(scale: float, beside: float) -> None:
+    """Slanted planes that are told nearer by the same number of pixels leave the scale alone."""
+    planes = [plane(2.9, scale), plane(3.1, scale), plane(3.0, scale)]
+    for true, slant in ((1.4, 0.003), (1.5, 0.003), (1.4, 0.0035)):
+        told = plane(true, scale)
+        planes.append(PlaneDepth(told.measured - beside * slant / scale, true, 0.001, slant))
+    assert scale_of(planes).scale == pytest.approx(scale, abs=5e-4)
+
+
+def test_the_surface_at_a_marker_is_the_floor_a_fixtures_face_or_its_plate() -> None:
+    """The floor around a flat one with a hole for its plate, the whole beam behind one on it."""
+    layout = layout_of()
+    by_id = {one.id: one for one in layout.fiducials}
+    floor = surface_of(by_id[0], layout.fixtures)
+    assert floor.hole is not None
+    assert np.ptp(floor.corners, axis=0) == pytest.approx([0.51, 0.51, 0.0])
+    assert floor.corners[:, 2] == pytest.approx(0.0)
+    beam = surface_of(by_id[5], layout.fixtures)
+    assert np.ptp(beam.corners, axis=0) == pytest.approx([0.0, 1.84, 0.26], abs=1e-9)
+    assert beam.outward == pytest.approx([-1.0, 0.0, 0.0])
+    assert np.array_equal(beam.corners, surface_of(by_id[7], layout.fixtures).corners)
+    plate = surface_of(by_id[5], ())
+    assert np.ptp(plate.corners, axis=0) == pytest.approx([0.0, 0.24, 0.24], abs=1e-9)

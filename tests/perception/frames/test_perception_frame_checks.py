@@ -12,7 +12,7 @@ from depal.domain import CellLayout, PalletStand
 from depal.geometry import Matrix3, Pose
 from depal.perception.frames import problems_of
 from depal.ports import Frame
-from depal.simulation.imaging.camera import CameraModel
+from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.scenes.scene import parked
 
@@ -38,9 +38,7 @@ def told(frame: Frame, camera: str, **known: object) -> tuple[str, ...]:
 
 def taken(layout: CellLayout, camera: str) -> Frame:
     """A picture of another cell by a camera that stands as in the default cell."""
-    scene = CellScene(layout, ())
-    mesh = scene.at(parked(layout, ()))
-    return CameraModel(scene, mount_of(camera), 5).frame(mesh, 0.0, 0)
+    return CameraModel(CellScene(layout, ()), mount_of(camera), 5).frame(parked(layout, ()), 0.0, 0)
 
 
 def without_pallet(layout: CellLayout) -> CellLayout:
@@ -131,9 +129,8 @@ def test_wrong_intrinsics_are_named(camera: str) -> None:
     assert finding.startswith("intrinsics: the depth picture comes with fx ")
     mount = mount_of(camera)
     view = 2 * math.atan(math.tan(mount.vertical_view / 2) / 1.03)
-    scene = CellScene(layout_of(), ())
-    longer = CameraModel(scene, replace(mount, vertical_view=view), 5)
-    other = longer.frame(scene.at(parked(layout_of(), ())), 0.0, 0)
+    longer = CameraModel(CellScene(layout_of(), ()), replace(mount, vertical_view=view), 5)
+    other = longer.frame(parked(layout_of(), ()), 0.0, 0)
     lie = replace(other, colour_k=frame.colour_k, depth_k=frame.depth_k)
     (finding,) = told(lie, camera)
     assert finding.startswith("intrinsics: the markers fit a focal length of 14")

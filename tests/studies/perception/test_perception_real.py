@@ -47,9 +47,8 @@ class BrightCards:
     def __init__(self, *_told: object, **_sizes: object) -> None:
         """Needs to be told nothing."""
 
-    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
+    def look(self, frames: Sequence[Frame]) -> Look:
         """Every bright patch as a face."""
-        del anew
         return Look((), faces=bright_cards(frames[0]))
 
 

@@ -49,7 +49,7 @@ class Observing:
         book: PictureBook,
         before: Look | None,
     ) -> Look:
-        """The boxes that these frames show."""
+        """The boxes that these frames show; what looks as before is taken over from there."""
         lines = tuple(expected or ())
         known = Known(tuple(line.product for line in lines), gallery=self._prints(book, lines))
         last = self._last if before is not None else None
@@ -118,4 +118,4 @@ def _calibrated(layout: CellLayout, mount: CameraMount, frame: Frame) -> Calibra
     """By the markers; a cell without any is taken as its file says."""
     if not layout.fiducials:
         return Calibration.nominal(mount)
-    return calibrate([frame], layout.fiducials)
+    return calibrate([frame], layout.fiducials, layout.fixtures)

@@ -54,6 +54,11 @@ class Surroundings:
             if (column := self._column(box.shape)) is not None
         ]
         cases += [
+            (f"what was under {box}", column)
+            for box, shape in pile.bared.items()
+            if (column := self._column(shape)) is not None
+        ]
+        cases += [
             (f"something before the camera {k}", solid) for k, solid in enumerate(pile.obstacles)
         ]
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]

@@ -76,6 +76,7 @@ class Taking:
         work = self._work
         if box not in work.doubted:
             return None
+        work.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"

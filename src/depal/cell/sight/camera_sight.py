@@ -92,6 +92,7 @@ class CameraSight:
         self._cameras, self._eyes, self.book = tuple(cameras), eyes, book
         self._note, self._clock = note, clock
         self._pile: Pile | None = None
+        self._doubting = False
         self._covered: Callable[[], bool] = lambda: False
         self.memory = memory or Memory()
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
@@ -120,12 +121,17 @@ class CameraSight:
         if problems:
             raise DeviceError("; ".join(problems))
         self._forget_taken()
-        before = None if self.last is None else self._believed()
+        before = None if self.last is None or self._doubting else self._believed()
+        self._doubting = False
         look = self._eyes.perceive(frames, self._expected(), self.book, before)
         self._seen.append((taken, tuple(frames)))
         self.last = look
         self.memory = self.memory.update(look, taken)
         return self._view(taken)
+
+    def doubt(self) -> None:
+        """Something is not as it looked: the next look takes nothing over from those before."""
+        self._doubting = True
 
     @property
     def frames(self) -> tuple[Frame, ...]:

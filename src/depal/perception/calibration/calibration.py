@@ -8,11 +8,12 @@ import numpy as np
 
 from depal.domain import CameraMount, Fiducial
 from depal.errors import FrameError, Problem
-from depal.geometry import Matrix3, Pose
+from depal.geometry import Matrix3, OrientedBox, Pose
 from depal.perception.calibration.finding import expected, found_anywhere
-from depal.perception.calibration.planes import plane_depths
+from depal.perception.calibration.planes import PlaneDepth, merged, plane_depth
 from depal.perception.calibration.scaling import DepthScale, scale_of
 from depal.perception.calibration.solving import FEWEST, misplaced, pose_of, refined, rms, sighted
+from depal.perception.calibration.surfaces import Surface, surface_of
 from depal.ports import Frame
 
 
@@ -60,13 +61,19 @@ class Calibration:
         return replace(frame, depth=depth, cell_from_camera=self.cell_from_camera)
 
 
-def calibrate(frames: Sequence[Frame], fiducials: Iterable[Fiducial]) -> Calibration:
+def calibrate(
+    frames: Sequence[Frame],
+    fiducials: Iterable[Fiducial],
+    fixtures: Iterable[OrientedBox] = (),
+) -> Calibration:
     """Finds pose and depth scale of a camera.
 
     Args:
         frames: pictures of one camera that has not moved in between; what they say of their own
             pose is not used.
         fiducials: all of the cell.
+        fixtures: solid things of the cell: where a plate hangs on one, its whole face tells of
+            the depths.
 
     Returns:
         The calibration.
@@ -87,23 +94,18 @@ def calibrate(frames: Sequence[Frame], fiducials: Iterable[Fiducial]) -> Calibra
         if better.markers >= FEWEST:
             corners, pose = better, refined(better, first.colour_k, pose)
     if pose is None:
-        seen = sorted({pattern for one in found for pattern in one})
-        what = f"markers {_listed(seen)} are seen, too few for a pose"
+        some = sorted({pattern for one in found for pattern in one})
+        what = f"markers {_listed(some)} are seen, too few for a pose"
         wanted = f"at least {FEWEST} of {_listed(sorted(patterns))}"
         raise FrameError("calibration", [Problem("fiducials", what, wanted)])
-    planes = [
-        plane
-        for frame, one in zip(frames, found, strict=True)
-        for plane in plane_depths(
-            frame.depth, frame.depth_k, pose, [marker for marker in markers if marker.id in one]
-        )
-    ]
+    seen = {int(i) for i in np.unique(corners.patterns)}
+    planes = known_depths(frames, pose, [one for one in markers if one.id in seen], fixtures)
     apart = misplaced(corners, first.colour_k, pose)
     return Calibration(
         pose,
         scale_of(planes),
         rms(apart),
-        {int(i): rms(apart[corners.patterns == i]) for i in np.unique(corners.patterns)},
+        {i: rms(apart[corners.patterns == i]) for i in sorted(seen)},
         first.colour_k,
         first.depth_k,
     )
@@ -119,6 +121,28 @@ def nominal_k(size: tuple[int, int], vertical_view: float) -> Matrix3:
     width, height = size
     focal = height / 2 / math.tan(vertical_view / 2)
     return ((focal, 0.0, (width - 1) / 2), (0.0, focal, (height - 1) / 2), (0.0, 0.0, 1.0))
+
+
+def known_depths(
+    frames: Sequence[Frame],
+    pose: Pose,
+    fiducials: Iterable[Fiducial],
+    fixtures: Iterable[OrientedBox],
+) -> tuple[PlaneDepth, ...]:
+    """What frames of one camera say of the planes at markers, each plane once."""
+    solids, known = tuple(fixtures), dict[bytes, Surface]()
+    for one in fiducials:
+        surface = surface_of(one, solids)
+        known.setdefault(surface.corners.tobytes(), surface)
+    each = [
+        [
+            plane
+            for frame in frames
+            if (plane := plane_depth(frame.depth, frame.depth_k, pose, surface)) is not None
+        ]
+        for surface in known.values()
+    ]
+    return tuple(merged(planes) for planes in each if planes)
 
 
 def _alike(frames: Sequence[Frame]) -> Frame:

@@ -16,6 +16,12 @@ SURE = 4.0
 SPREAD = 1.4
 """An offset can be told from a scale where the farthest plane is so many times the nearest."""
 
+BESIDE = 3.0
+"""Depths may belong to pixels so far beside them, all alike, which tells on slanted planes [pixel].
+
+Stereo finds a depth for a window, and what in it is nearer decides more.
+"""
+
 TRUSTED = 1.5
 """A plane that is off by more of its own errors counts less."""
 
@@ -55,27 +61,38 @@ def scale_of(planes: Sequence[PlaneDepth]) -> DepthScale:
     measured = np.array([plane.measured for plane in planes])
     true = np.array([plane.true for plane in planes])
     errors = np.array([plane.error for plane in planes])
-    (scale,), cov = _fitted(measured[:, None], true, errors)
-    found = DepthScale(scale, 0.0, float(np.sqrt(cov[0, 0])), len(planes))
+    slants = np.array([plane.slant for plane in planes])
+    best, cov = _fitted(np.column_stack((measured, slants)), true, errors)
+    found = DepthScale(best[0], 0.0, float(np.sqrt(cov[0, 0])), len(planes))
     if true.max() < SPREAD * true.min():
         return found
-    both, cov = _fitted(np.column_stack((measured, np.ones_like(measured))), true, errors)
-    if abs(both[1]) < SURE * np.sqrt(cov[1, 1]):
+    columns = np.column_stack((measured, np.ones_like(measured), slants))
+    best, cov = _fitted(columns, true, errors)
+    if abs(best[1]) < SURE * np.sqrt(cov[1, 1]):
         return found
     middle = float(np.average(measured, weights=1 / errors**2))
-    at = np.array((middle, 1.0))
-    return DepthScale(both[0], both[1], float(np.sqrt(at @ cov @ at)) / middle, len(planes))
+    at = np.array((middle, 1.0, 0.0))
+    return DepthScale(best[0], best[1], float(np.sqrt(at @ cov @ at)) / middle, len(planes))
 
 
 def _fitted(columns: Floats, true: Floats, errors: Floats) -> tuple[list[float], Floats]:
-    """Least squares with Huber's weights; and the covariance, no smaller than the fit is bad."""
-    trusted = np.ones_like(true)
-    off, best = np.zeros_like(true), columns[0]
+    """Least squares with Huber's weights; and the covariance, no smaller than the fit is bad.
+
+    Args:
+        columns: (n, m); the last is that of `BESIDE`, which is 0 as far as anybody knows.
+        true: (n,) what they add up to [m].
+        errors: (n,) [m].
+    """
+    trusted, off = np.ones_like(true), np.zeros_like(true)
+    known = np.zeros((1, columns.shape[1]))
+    known[0, -1] = 1.0 / BESIDE
+    best = np.zeros(columns.shape[1])
     for _ in range(ROUNDS):
         weights = np.sqrt(trusted) / errors
-        best = np.linalg.lstsq(columns * weights[:, None], true * weights, rcond=None)[0]
+        rows = np.vstack((columns * weights[:, None], known))
+        best = np.asarray(np.linalg.lstsq(rows, np.append(true * weights, 0.0), rcond=None)[0])
         off = np.abs(true - columns @ best) / errors
         trusted = np.minimum(TRUSTED / np.maximum(off, 1e-9), 1.0)
-    rows = columns * (np.sqrt(trusted) / errors)[:, None]
+    rows = np.vstack((columns * (np.sqrt(trusted) / errors)[:, None], known))
     spread = max(1.0, float(np.mean(trusted * off**2)))
     return best.tolist(), np.asarray(np.linalg.pinv(rows.T @ rows) * spread)

@@ -77,7 +77,7 @@ class Finder:
     """
 
     score: FaceScore = field(default_factory=shipped_score)
-    eager: float = 0.0
+    eager: float = 1.5
 
     def faces(
         self,

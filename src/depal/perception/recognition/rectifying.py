@@ -18,7 +18,7 @@ Flags = npt.NDArray[np.bool_]
 FLATTEST = math.cos(math.radians(72))
 """Cosine between sight and normal below which a camera sees a face too flatly."""
 
-BEFORE = 0.04
+BEFORE = 0.06
 """What is measured so far before a face hides it [m]."""
 
 COARSE = 6
@@ -101,5 +101,7 @@ def _hidden(frame: Frame, camera_from_face: Pose, shape: tuple[int, int], step: 
     v = np.clip(np.round(y / z), 0, frame.depth.shape[0] - 1).astype(np.intp)
     measured = frame.depth[v, u]
     hidden = ((measured > 0.0) & (measured < z - BEFORE)).astype(np.uint8)
+    # Single places are errors of the depth.
+    hidden = np.asarray(cv2.medianBlur(hidden, 3))
     large = cv2.resize(hidden, (width * COARSE, height * COARSE), interpolation=cv2.INTER_NEAREST)
     return np.asarray(large)[: shape[1], : shape[0]] > 0

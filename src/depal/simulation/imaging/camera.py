@@ -8,7 +8,6 @@ from depal.ports import Frame
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.imaging.severity import Severity
-from depal.simulation.imaging.wear import WEAR, Wear
 
 EXPOSURE = 0.5
 """One look's pictures take so long [s]."""
@@ -35,11 +34,8 @@ class SimulatedCamera:
     def model(self) -> CameraModel:
         """What it is; made when somebody first looks."""
         if self._model is None:
-            world = self._stage.world
-            shapes = [case.shape for case in world.cases]
-            wear = Wear(shapes, WEAR[self._severity], world.seed)
-            scene = self._stage.scene
-            self._model = CameraModel(scene, self._mount, wear, world.seed, self._severity)
+            scene, seed = self._stage.scene, self._stage.world.seed
+            self._model = CameraModel(scene, self._mount, seed, self._severity)
         return self._model
 
     async def take(self) -> Frame:

@@ -119,10 +119,9 @@ class DepthSensor:
             (h, w) along the optical axis [m]; 0 where nothing was measured.
         """
         errors, focal = self._errors, self._focal
-        least, most = (round(width * focal) for width in errors.fatten)
-        grown = _grown(disparity, least)
-        if most > least:
-            np.copyto(grown, _grown(disparity, most), where=self._wander)
+        least, most = (_dilated(disparity, round(width * focal)) for width in errors.fatten)
+        grown = np.empty_like(disparity)
+        grow(disparity, least, most, self._wander, LARGE / 2 * self.scale, grown)
         size = max(round(errors.window * focal), 1)
         square = np.ones((size, size), dtype=np.uint8)
         wide = cv2.morphologyEx(holes.view(np.uint8), cv2.MORPH_OPEN, square)
@@ -190,10 +189,31 @@ def tell(
             depth[y, x] = 0.0 if hole else limits[4] / value
 
 
-def _grown(disparity: Floats, width: int) -> Floats:
-    """The nearer surface so many pixels over its edge."""
+@loop_kernel
+def grow(
+    disparity: Floats, least: Floats, most: Floats, wander: Flags, step: float, grown: Floats
+) -> None:
+    """Lets nearer surfaces grow over their edges; slanted ones stay what they are.
+
+    Args:
+        disparity: (h, w) true [pixel].
+        least: (h, w) the greatest of the neighbours nearby.
+        most: (h, w) the same of a wider neighbourhood.
+        wander: (h, w) where the wider one is taken.
+        step: what differs by less is one surface [pixel].
+        grown: (h, w) filled.
+    """
+    height, width = disparity.shape
+    for y in range(height):
+        for x in range(width):
+            near = most[y, x] if wander[y, x] else least[y, x]
+            grown[y, x] = near if near - disparity[y, x] > step else disparity[y, x]
+
+
+def _dilated(disparity: Floats, width: int) -> Floats:
+    """The greatest disparity within so many pixels."""
     if width == 0:
-        return disparity.copy()
+        return disparity
     square = np.ones((2 * width + 1, 2 * width + 1), dtype=np.uint8)
     return np.asarray(cv2.dilate(disparity, square), dtype=np.float32)
 

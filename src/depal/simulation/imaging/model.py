@@ -29,7 +29,7 @@ from depal.simulation.imaging.scene import CellScene
 from depal.simulation.imaging.sensor import Grain
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.imaging.shadows import carried_by, sun_lens, sun_map
-from depal.simulation.imaging.wear import Wear, Worn
+from depal.simulation.imaging.wear import WEAR, Wear, Worn
 from depal.simulation.world import Snapshot
 
 Floats = npt.NDArray[np.float64]
@@ -52,18 +52,18 @@ class CameraModel:
         self,
         scene: CellScene,
         mount: CameraMount,
-        wear: Wear,
         seed: int,
         severity: Severity = Severity.NORMAL,
+        wear: Wear | None = None,
     ) -> None:
         """A camera before a scene.
 
         Args:
             scene: what it sees.
             mount: where it stands.
-            wear: of the scene's boxes in this run.
             seed: of all that is random in this run.
             severity: how far it is from ideal.
+            wear: of the scene's boxes in this run, where another camera has drawn it.
         """
         self.mount, self.severity = mount, severity
         self._scene, self._seed = scene, seed
@@ -75,7 +75,7 @@ class CameraModel:
         self._own = own
         self._light = RunLight.drawn(severity, seed, own)
         self._sun = sun_lens(self._light.light)
-        self._wear = wear
+        self._wear = wear or Wear(scene.shapes, WEAR[severity], seed)
         self._sensor = DepthSensor(self.lens, DEPTH[severity], (seed, own))
         self.bias = self._sensor.bias
         settings = self._light.settings

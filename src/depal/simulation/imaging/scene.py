@@ -26,12 +26,14 @@ class CellScene:
     Attributes:
         atlas: all textures.
         boxes: how many boxes there are; box i is part i in pictures.
+        shapes: where the boxes stand in the beginning.
         walls: backs and sides of the storages.
     """
 
     def __init__(self, layout: CellLayout, cases: tuple[Case, ...]) -> None:
         """Draws the prints of all cases."""
         self.boxes = len(cases)
+        self.shapes = [case.shape for case in cases]
         self._layout = layout
         builder = AtlasBuilder()
         prints = PrintedBoxes(builder)

@@ -110,7 +110,7 @@ def _seen(
     wear = Wear(shapes, WEAR[severity], seed)
     frames, views = [], []
     for mount in layout.cameras:
-        model = CameraModel(drawn, mount, wear, seed, severity)
+        model = CameraModel(drawn, mount, seed, severity, wear)
         frame, parts = model.shot(snapshot, 0.0, 0)
         frames.append(frame)
         views.append((model.lens, parts))

@@ -15,27 +15,22 @@ from depal.ports import Frame
 
 @dataclass(slots=True)
 class Eye:
-    """One pallet's worth of looks.
+    """Looks at one pallet, each with what the look before has found.
 
     Attributes:
         observer: finds the boxes.
         known: what it is told.
-        last: what the last look has made of its frames.
+        before: the look before.
     """
 
     observer: Observer
     known: Known = field(default_factory=Known)
-    last: Observation | None = None
+    before: Observation | None = None
 
-    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
-        """What is found in the frames of one look, one per camera.
-
-        Args:
-            frames: with their calibration.
-            anew: whether nothing is taken over from the look before.
-        """
-        self.last = self.observer.look(frames, self.known, None if anew else self.last)
-        return self.last.look
+    def look(self, frames: Sequence[Frame]) -> Look:
+        """What is found in the frames of one look, one per camera, with their calibration."""
+        self.before = self.observer.look(frames, self.known, self.before)
+        return self.before.look
 
 
 def open_eye(

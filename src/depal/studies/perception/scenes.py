@@ -38,8 +38,8 @@ FOREIGN = 0.18
 class Looks(Protocol):
     """Perception that has been told what it is told."""
 
-    def look(self, frames: Sequence[Frame], *, anew: bool = True) -> Look:
-        """What is found in the frames of one look; anew, or by what has changed since the last."""
+    def look(self, frames: Sequence[Frame]) -> Look:
+        """What is found in the frames of one look, one per camera; it knows the look before."""
         ...
 
 
@@ -143,7 +143,7 @@ def after_a_pick(made: Scene) -> tuple[Frame, ...]:
     snapshot = replace(parked(made.layout, cases), removed=(gone,))
     drawn, wear = CellScene(made.layout, cases), Wear(shapes, WEAR[made.severity], made.seed)
     return tuple(
-        CameraModel(drawn, mount, wear, made.seed, made.severity).frame(snapshot, 10.0, 1)
+        CameraModel(drawn, mount, made.seed, made.severity, wear).frame(snapshot, 10.0, 1)
         for mount in made.layout.cameras
     )
 
@@ -173,7 +173,7 @@ def measure_times(piece: Piece, perception: Perception, delivery: Delivery) -> M
     known, eye = calibrations(made), _told(made, delivery, piece, perception)
     eye.look([c.applied(frame) for c, frame in zip(known, made.frames, strict=True)])
     later = [c.applied(frame) for c, frame in zip(known, after_a_pick(made), strict=True)]
-    seconds, _ = _timed(eye, later, anew=False)
+    seconds, _ = _timed(eye, later)
     return replace(first, later=seconds)
 
 
@@ -184,8 +184,8 @@ def _told(made: Scene, delivery: Delivery, piece: Piece, perception: Perception)
     return perception(Region.above(made.layout.pallet), note, book)
 
 
-def _timed(eye: Looks, frames: Sequence[Frame], *, anew: bool = True) -> tuple[float, Look]:
+def _timed(eye: Looks, frames: Sequence[Frame]) -> tuple[float, Look]:
     """A look and how long it took [s]."""
     begun = time.perf_counter()
-    look = eye.look(frames, anew=anew)
+    look = eye.look(frames)
     return time.perf_counter() - begun, look

@@ -99,9 +99,14 @@ def top(design: Design, size: tuple[float, float]) -> Bytes:
         canvas.disc(w * 0.5, h * 0.5, min(w, h) * 0.46, design.light)
         canvas.disc(w * 0.5, h * 0.5, min(w, h) * 0.41, design.accent)
         ink = _ink_on(design.accent, design)
-        words, across = f"{design.variety}   {design.contents}", min(w, h)
-        canvas.text(design.brand, (w / 2, h * 0.5 - across * 0.05), (across * 0.7, h * 0.2), ink)
-        canvas.text(words, (w / 2, h * 0.5 + across * 0.16), (across * 0.66, h * 0.09), ink)
+        across = min(w, h)
+        for words, below, room in (
+            (design.brand, -0.13, (0.66, 0.22)),
+            (design.variety, 0.07, (0.56, 0.13)),
+            (design.contents, 0.22, (0.44, 0.11)),
+        ):
+            middle = (w / 2, h / 2 + below * across)
+            canvas.text(words, middle, (room[0] * across, room[1] * across), ink)
         return canvas.finished()
     tape = min(50.0, h * 0.3)
     canvas.block(0, (h - tape) / 2, w, (h + tape) / 2, _blend(ground, (222, 200, 160), 0.55))
@@ -109,7 +114,7 @@ def top(design: Design, size: tuple[float, float]) -> Bytes:
     ink = _ink_of(design)
     canvas.text(design.brand.upper(), (w / 2, h * 0.17), (w * 0.5, h * 0.14), ink)
     words = f"{design.variety}   {design.contents}"
-    canvas.text(words, (w / 2, h * 0.86), (w * 0.6, h * 0.1), ink)
+    canvas.text(words, (w / 2, h * 0.86), (w * 0.8, h * 0.1), ink)
     return canvas.finished()
 
 
