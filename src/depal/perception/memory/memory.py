@@ -62,8 +62,8 @@ class Memory:
 
     @property
     def hidden(self) -> frozenset[BoxId]:
-        """Boxes that the last look did not show."""
-        return frozenset(box.name for box in self.boxes if box.missed)
+        """Boxes that the last look did not show, or not where those before did."""
+        return frozenset(box.name for box in self.boxes if not box.settled)
 
     def update(self, look: Look, now: float) -> "Memory":
         """Lays a look over what was believed.
@@ -131,6 +131,8 @@ class Memory:
             after[name] = before[name].again(new[index], now)
             if between(before[name].seen.shape, new[index].shape).shift > MOVED:
                 moved.add(name)
+                if not part:  # such a sight is not wrong
+                    after[name] = Remembered(name, new[index], last=now)
         lasting = [
             after.get(box.name, box.unseen())
             for box in self.boxes
