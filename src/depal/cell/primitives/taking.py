@@ -6,6 +6,7 @@ from depal.cell.guards import Guards
 from depal.cell.identity import why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
@@ -76,6 +77,7 @@ class Taking:
         work = self._work
         if box not in work.doubted:
             return None
+        await out_of_view(work, self._desk)
         work.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
