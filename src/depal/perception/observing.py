@@ -14,9 +14,9 @@ from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
 from depal.perception.detecting import Expected, Finder, Found, Printed
 from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
+from depal.perception.locating import located
 from depal.perception.rasters import Region, rasters_of
-from depal.perception.recognition import Gallery, identify, sightings
-from depal.perception.recognition.rectifying import rectified
+from depal.perception.recognition import Gallery, sightings
 from depal.perception.relations import relations_of
 from depal.ports import Frame
 
@@ -115,10 +115,8 @@ class Observer:
         prints = None if known.gallery is None else printed_on(raster, known.gallery)
         fixed = [rectangle_of(raster, face) for face in kept]
         found = self.finder.faces(raster, known.expected, prints, fixed)
-        faces = [_laid(raster, each) for each in found]
-        if known.gallery is not None:
-            faces = [_named(face, frames, known.gallery) for face in faces]
-        return tuple(faces)
+        sizes = known.expected.faces(raster.facing)
+        return tuple(located(_laid(raster, each), frames, sizes, known.gallery) for each in found)
 
 
 def printed_on(raster: Raster, gallery: Gallery) -> tuple[Printed, ...]:
@@ -143,18 +141,6 @@ def _laid(raster: Raster, found: Found) -> Face:
         pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
     size = (found.rectangle.width, found.rectangle.height)
     return Face(raster.facing, pose, size, found.probability, found.known, found.name)
-
-
-def _named(face: Face, frames: Sequence[Frame], gallery: Gallery) -> Face:
-    """A face with what its print says, seen finely, and moved to where the print says it is."""
-    patch = rectified(frames, face.facing, face.cell_from_face, face.size)
-    identity = None if patch is None else identify(patch, gallery)
-    if identity is None:
-        return face
-    move = identity.refined
-    c, s = math.cos(move.turn), math.sin(move.turn)
-    shift = Pose((move.du, move.dv, 0.0), ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
-    return replace(face, cell_from_face=face.cell_from_face @ shift, name=identity.name)
 
 
 def _unchanged(

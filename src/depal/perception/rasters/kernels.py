@@ -12,6 +12,10 @@ Narrow = npt.NDArray[np.float32]
 Bytes = npt.NDArray[np.uint8]
 
 
+ALIKE = 0.030
+"""Points so near behind the nearest are of its surface [m]."""
+
+
 @loop_kernel
 def normals(depth: Narrow, k: Floats, reach: int, jump: float, out: Narrow) -> None:
     """The normal of the surface at every pixel, from differences to pixels `reach` away.
@@ -59,7 +63,7 @@ def normals(depth: Narrow, k: Floats, reach: int, jump: float, out: Narrow) -> N
 
 
 @loop_kernel
-def splat(
+def splat(  # noqa: PLR0913, PLR0917
     depth: Narrow,
     normal: Narrow,
     k: Floats,
@@ -68,8 +72,14 @@ def splat(
     flattest: float,
     deepest: float,
     nearest: Narrow,
+    total: Narrow,
+    count: Narrow,
 ) -> None:
-    """Puts the points of a depth picture into a raster; the nearest at each place stays.
+    """Puts the points of a depth picture into a raster; the nearest surface at each place stays.
+
+    To be called for all cameras, and then once more for all with `count` cleared to zero: at
+    first `nearest` becomes the nearest point at each place, which noise brings nearer than the
+    surface is; then all points near to it are summed.
 
     Args:
         depth: (h, w) [m]; 0 where unknown.
@@ -79,7 +89,10 @@ def splat(
         step: of the raster [m].
         flattest: cosine between a normal and the viewing direction below which a point is left.
         deepest: what lies deeper is left [m].
-        nearest: (h', w') depth in the raster [m], infinite where none; updated.
+        nearest: (h', w') depth in the raster [m], infinite where none; updated while `count` is
+            negative.
+        total: (h', w') sum of the depths near to the nearest [m]; updated after that.
+        count: (h', w') how many those are, negative at first; updated after that.
     """
     height, width = depth.shape
     rows, columns = nearest.shape
@@ -102,7 +115,11 @@ def splat(
             i, j = math.floor(v / step + 0.5), math.floor(u / step + 0.5)
             if i < 0 or j < 0 or i >= rows or j >= columns:
                 continue
-            nearest[i, j] = min(nearest[i, j], d)
+            if count[i, j] < 0.0:
+                nearest[i, j] = min(nearest[i, j], d)
+            elif d < nearest[i, j] + ALIKE:
+                total[i, j] += d
+                count[i, j] += 1.0
 
 
 @loop_kernel

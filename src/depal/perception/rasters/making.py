@@ -161,12 +161,17 @@ def _depths(
     coarse, shift = step * FINER, step * (FINER - 1) / 2
     cell_from_coarse = cell_from_raster @ Pose((shift, shift, 0.0))
     deepest = region.size[0] if facing is Facing.FRONT else region.size[2] - region.ground - FLAT
-    nearest = np.full((shape[0] // FINER, shape[1] // FINER), np.inf, dtype=np.float32)
-    for frame, (depth, normals) in zip(frames, surfaces, strict=True):
-        pose = carried(cell_from_coarse.inverse @ frame.cell_from_camera)
-        k = intrinsics(frame.depth_k)
-        kernels.splat(depth, normals, k, pose, coarse, FLATTEST, deepest, nearest)
-    closed = _closed(nearest)
+    size = (shape[0] // FINER, shape[1] // FINER)
+    nearest = np.full(size, np.inf, dtype=np.float32)
+    total, count = np.zeros(size, dtype=np.float32), np.full(size, -1.0, dtype=np.float32)
+    for _ in range(2):
+        for frame, (depth, normals) in zip(frames, surfaces, strict=True):
+            pose = carried(cell_from_coarse.inverse @ frame.cell_from_camera)
+            view = (intrinsics(frame.depth_k), pose, coarse, FLATTEST, deepest)
+            kernels.splat(depth, normals, *view, nearest, total, count)
+        count[:] = np.maximum(count, 0.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        closed = _closed(np.where(count > 0.0, total / count, np.float32(np.inf)))
     if facing is Facing.FRONT:
         closed[round((region.size[2] - region.ground) / coarse) :] = np.inf
     smooth = np.empty_like(closed)

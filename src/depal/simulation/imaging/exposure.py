@@ -197,11 +197,12 @@ def worn_pixel(
     for n in range(SCUFF_COUNT):
         k = SCUFFS + 4 * n
         radius = marks[k + 2]
-        if radius > 0.0:
-            ds, dt = s - marks[k], (t - marks[k + 1]) * 2.0
-            apart = (ds * ds + dt * dt) / (radius * radius)
-            if apart < 1.0:
-                light = marks[k + 3] * (1.0 - apart * apart)
+        if radius <= 0.0:
+            break
+        ds, dt = s - marks[k], (t - marks[k + 1]) * 2.0
+        apart = (ds * ds + dt * dt) / (radius * radius)
+        if apart < 1.0:
+            light = marks[k + 3] * (1.0 - apart * apart)
     inward = min(s, worn.frames[face, WIDTH] - s, t, worn.frames[face, HEIGHT] - t)
     if inward < 4 * FOLD:
         edge = DARK * math.exp(-max(inward, 0.0) / FOLD)

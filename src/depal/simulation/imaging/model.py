@@ -1,5 +1,7 @@
 """One camera before one scene in one run: from the places of all things to a frame."""
 
+from typing import NamedTuple
+
 import cv2
 import numpy as np
 import numpy.typing as npt
@@ -25,7 +27,7 @@ from depal.simulation.imaging.kernels import cover
 from depal.simulation.imaging.lens import Lens
 from depal.simulation.imaging.mesh import Mesh
 from depal.simulation.imaging.raster import fields_of
-from depal.simulation.imaging.scene import CellScene
+from depal.simulation.imaging.scene import CellScene, Moment
 from depal.simulation.imaging.sensor import Grain
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.imaging.shadows import carried_by, sun_lens, sun_map
@@ -36,6 +38,14 @@ Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 Bytes = npt.NDArray[np.uint8]
 Owners = npt.NDArray[np.int32]
+
+
+class Before(NamedTuple):
+    """The moving triangles before a camera: in the cell, their boxes' faces, in its own frame."""
+
+    mesh: Mesh
+    faces: Ints
+    corners: Floats
 
 
 class CameraModel:
@@ -106,69 +116,57 @@ class CameraModel:
 
     def _taken(self, snapshot: Snapshot, taken: float, number: int) -> tuple[Frame, Owners, Ints]:
         """The picture, the triangle of each of its depths, and the part of each triangle."""
-        behind = self._backdrop(snapshot)
-        mesh, faces = self._scene.moving(snapshot)
-        corners = seen_from(mesh.corners, self._colour_lens)
-        chosen = in_view(corners, self._colour_lens)
-        if self._wider:
-            chosen |= in_view(corners, self.lens)
-        before, faces, near = mesh.chosen(chosen), faces[chosen], corners[chosen]
-        first, owner = len(behind.mesh.parts), self._owner
-        np.copyto(owner, behind.owner)
+        behind, moment = self._backdrop(snapshot), self._scene.moving(snapshot)
+        before = self._in_view(moment)
         worn = self._worn(snapshot)
-        colour = self._exposed(behind, mesh, before, near, faces, worn, owner)
+        colour = self._exposed(behind, moment, before, worn)
         random = np.random.default_rng([self._seed, 7, self._own, number])
-        deep = self._deep(behind, near, owner)
-        planes = np.concatenate((behind.planes, planes_of(near)))
-        each = np.concatenate((np.full(first, -1), faces))
-        depth = self._depth(deep, planes, each, worn, random)
+        deep = self._deep(behind, before.corners)
+        planes = np.concatenate((behind.planes, planes_of(before.corners)))
+        faces = np.concatenate((np.full(len(behind.planes), -1), before.faces))
         frame = Frame(
             taken,
             self._grain.sensed(colour, random),
-            depth,
+            self._depth(deep, planes, faces, worn, random),
             self._colour_lens.k,
             self.lens.k,
             self.mount.cell_from_camera,
         )
-        return frame, deep, np.concatenate((behind.mesh.parts, before.parts))
+        return frame, deep, np.concatenate((behind.mesh.parts, before.mesh.parts))
 
-    def _exposed(
-        self,
-        behind: Backdrop,
-        mesh: Mesh,
-        before: Mesh,
-        corners: Floats,
-        faces: Ints,
-        worn: Worn,
-        owner: Owners,
-    ) -> Bytes:
-        """The sharp picture; `owner` is updated.
+    def _in_view(self, moment: Moment) -> Before:
+        """Those of the moving triangles that either picture can show."""
+        corners = seen_from(moment.mesh.corners, self._colour_lens)
+        chosen = in_view(corners, self._colour_lens)
+        if self._wider:
+            chosen |= in_view(corners, self.lens)
+        return Before(moment.mesh.chosen(chosen), moment.faces[chosen], corners[chosen])
 
-        Args:
-            behind: what is still.
-            mesh: what moves.
-            before: that part of it which is in the picture.
-            corners: of that in the camera's frame.
-            faces: of that.
-            worn: the wear.
-            owner: triangles of `behind` as its pixels see them.
-        """
-        lens, first = self._colour_lens, len(behind.mesh.parts)
-        nearest, colour = self._nearest, self._colour
+    def _exposed(self, behind: Backdrop, moment: Moment, before: Before, worn: Worn) -> Bytes:
+        """The sharp picture; the triangles that its pixels see are left in `_owner`."""
+        lens, first = self._colour_lens, len(behind.planes)
+        nearest, owner, colour = self._nearest, self._owner, self._colour
         np.copyto(nearest, behind.nearest)
+        np.copyto(owner, behind.owner)
         np.copyto(colour, behind.colour)
-        cover(corners, lens.values, nearest, owner, first)
-        lit = sun_map([mesh], self._sun, behind.sun)
-        most = cv2.dilate(lit, np.ones((3, 3), dtype=np.uint8))
-        way, kept = carried_by(self._sun, lens), self._light.in_shadow(before, self._sun)
-        sun = Sun(self._sun.values, way, lit, np.asarray(most), kept)
-        flat = colour.reshape(-1, 3)
-        bare = behind.colour.reshape(-1, 3)
-        shade_ground(behind.ground, owner.ravel(), first, lit, sun.most.ravel(), bare, flat)
-        region = region_of(corners, lens)
-        looks = self._looks(before, corners, faces)
-        expose(owner, nearest, region, first, looks, sun, worn, colour)
+        cover(before.corners, lens.values, nearest, owner, first)
+        sun = self._sunlight(behind, moment, before.mesh)
+        flat, bare = colour.reshape(-1, 3), behind.colour.reshape(-1, 3)
+        most = sun.most.ravel()
+        shade_ground(behind.ground, owner.ravel(), first, sun.nearest, most, bare, flat)
+        region = region_of(before.corners, lens)
+        expose(owner, nearest, region, first, self._looks(before), sun, worn, colour)
         return colour
+
+    def _sunlight(self, behind: Backdrop, moment: Moment, mesh: Mesh) -> Sun:
+        """The light's picture, and what shadows do to the triangles of a mesh."""
+        stands = self._sun.cell_from_camera
+        if stands not in moment.lit:
+            moment.lit[stands] = sun_map([moment.mesh], self._sun, behind.sun)
+        lit = moment.lit[stands]
+        most = np.asarray(cv2.dilate(lit, np.ones((3, 3), dtype=np.uint8)), dtype=np.float64)
+        way = carried_by(self._sun, self._colour_lens)
+        return Sun(self._sun.values, way, lit, most, self._light.in_shadow(mesh, self._sun))
 
     def _backdrop(self, snapshot: Snapshot) -> Backdrop:
         """The still things of this moment; painted anew only when a trolley comes or goes."""
@@ -179,10 +177,10 @@ class CameraModel:
             self._still = (there, drawn)
         return self._still[1]
 
-    def _deep(self, behind: Backdrop, corners: Floats, owner: Owners) -> Owners:
+    def _deep(self, behind: Backdrop, corners: Floats) -> Owners:
         """The triangles that the depth picture sees: the colour picture's, where that has them."""
         if not self._wider:
-            return np.ascontiguousarray(owner[self._rows[:, None], self._columns])
+            return np.ascontiguousarray(self._owner[self._rows[:, None], self._columns])
         width, height = self.lens.size
         nearest = np.zeros((height, width), dtype=np.float32)
         deep = np.full((height, width), -1, dtype=np.int32)
@@ -200,14 +198,14 @@ class CameraModel:
         seen = self.mount.cell_from_camera.inverse
         return self._wear.seen_from([seen @ pose for pose in poses], self.mount.cell_from_camera)
 
-    def _looks(self, mesh: Mesh, corners: Floats, faces: Ints) -> Looks:
-        atlas = self._scene.atlas
-        fields = fields_of(mesh, corners, atlas, self._light.on(mesh))
+    def _looks(self, before: Before) -> Looks:
+        atlas, faces = self._scene.atlas, before.faces
+        fields = fields_of(before.mesh, before.corners, atlas, self._light.on(before.mesh))
         printed = faces >= 0
         fields[printed, :2, 3] += self._wear.shifts[faces[printed]]
         return Looks(
             fields,
-            mesh.skins,
+            before.mesh.skins,
             faces,
             atlas.table,
             atlas.texels,

@@ -1,11 +1,13 @@
 """A whole cell as triangles, at any moment of its world."""
 
+from dataclasses import dataclass, field
+
 import numpy as np
 import numpy.typing as npt
 
 from depal.domain import CellLayout, Tool
 from depal.domain.robot import LINKS
-from depal.geometry import OrientedBox
+from depal.geometry import OrientedBox, Pose
 from depal.simulation.cases import Case
 from depal.simulation.imaging import furniture
 from depal.simulation.imaging.atlas import Atlas, AtlasBuilder
@@ -18,6 +20,22 @@ Ints = npt.NDArray[np.int64]
 
 CUP_LENGTH = 0.03
 """A bellows reaches so far from its plate to the plane of touch [m]."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Moment:
+    """What moves, at one moment.
+
+    Attributes:
+        mesh: boxes, arm and tool in the cell frame.
+        faces: (n,) the box's face `6 i + side` of each triangle, negative for arm and tool.
+        lit: the light's picture of all things, by where the light stands; whoever needs it first
+            draws it.
+    """
+
+    mesh: Mesh
+    faces: Ints
+    lit: dict[Pose, Floats] = field(default_factory=dict)
 
 
 class CellScene:
@@ -58,25 +76,22 @@ class CellScene:
         self.walls = tuple(walls)
         self._mesh = joined(meshes)
         self._faces = _faces(self._mesh, self.boxes)
-        self._moment: tuple[tuple[object, ...], Mesh, Ints] | None = None  # cameras look at once
+        self._moment: tuple[tuple[bytes, ...], Moment] | None = None
         self.atlas: Atlas = builder.build()
 
     def at(self, snapshot: Snapshot) -> Mesh:
         """Everything that is there at that moment, in the cell frame."""
         return self._placed(self._mesh.without(self._gone(snapshot)), snapshot)
 
-    def moving(self, snapshot: Snapshot) -> tuple[Mesh, Ints]:
-        """Boxes, arm and tool at that moment, and the box's face `6 i + side` of each triangle.
-
-        A triangle of the arm or the tool has a negative face.
-        """
-        moment = (snapshot.boxes.tobytes(), snapshot.arm.tobytes(), snapshot.removed)
-        if self._moment is None or self._moment[0] != (*moment, snapshot.folded):
-            gone = np.isin(self._mesh.parts, self._gone(snapshot))
-            kept = ~gone & (self._mesh.parts <= self._folded)
+    def moving(self, snapshot: Snapshot) -> "Moment":
+        """Boxes, arm and tool at that moment; kept for the next camera that asks."""
+        gone = self._gone(snapshot)
+        key = (snapshot.boxes.tobytes(), snapshot.arm.tobytes(), gone.tobytes())
+        if self._moment is None or self._moment[0] != key:
+            kept = ~np.isin(self._mesh.parts, gone) & (self._mesh.parts <= self._folded)
             mesh = self._placed(self._mesh.chosen(kept), snapshot)
-            self._moment = ((*moment, snapshot.folded), mesh, self._faces[kept])
-        return self._moment[1:]
+            self._moment = (key, Moment(mesh, self._faces[kept]))
+        return self._moment[1]
 
     def still(self, snapshot: Snapshot) -> Mesh:
         """All the rest of what is there at that moment."""
