@@ -17,19 +17,20 @@ from depal.perception.scoring.features import edge_misfits, misfits
 from depal.perception.seams import directions_of, seams_of
 
 STEP = 0.003
-WIDE, HIGH = 260, 220
+WIDE, HIGH, FINE = 260, 220, 4
 
 
 def raster_with(rectangles: list[Rectangle], seed: int = 0, contrast: float = 0.8) -> Raster:
     """Brown faces with darker outlines on a board of the same depth, with noise."""
     random = np.random.default_rng(seed)
-    picture = np.full((HIGH, WIDE, 3), (150, 120, 90), dtype=np.float64)
+    picture = np.full((HIGH * FINE, WIDE * FINE, 3), (150, 120, 90), dtype=np.float32)
     for rectangle in rectangles:
-        corners = np.round(rectangle.corners / STEP * 16).astype(np.int32)
+        corners = np.round((rectangle.corners / STEP + 0.5) * FINE * 16 - 8).astype(np.int32)
         brown = (190, 150, 105)
         cv2.fillConvexPoly(picture, corners, brown, shift=4)
         dark = tuple(contrast * value for value in brown)
-        cv2.polylines(picture, [corners], isClosed=True, color=dark, lineType=cv2.LINE_AA, shift=4)
+        cv2.polylines(picture, [corners], isClosed=True, color=dark, thickness=FINE, shift=4)
+    picture = cv2.resize(picture, (WIDE, HIGH), interpolation=cv2.INTER_AREA)
     noisy = picture + random.normal(0.0, 3.0, picture.shape)
     colour = np.clip(noisy, 1, 255).astype(np.uint8)
     depth = np.full((HIGH, WIDE), 0.3, dtype=np.float32)
@@ -70,10 +71,10 @@ def test_the_direction_of_edges_is_found(rectangle: Rectangle) -> None:
     assert min(away) < math.radians(1.0)
 
 
-@given(lone, st.booleans())
+@given(lone, st.sampled_from(("told", "")))
 @settings(max_examples=15)
 def test_a_face_is_among_the_proposals_with_its_size_known_or_not(
-    rectangle: Rectangle, *, told: bool
+    rectangle: Rectangle, told: str
 ) -> None:
     """Some candidate covers it well."""
     raster = raster_with([rectangle])
@@ -97,12 +98,12 @@ def test_evidence_lies_on_edges_and_along_them() -> None:
 
 def test_what_something_else_suggests_is_measured_like_the_others() -> None:
     """A placed rectangle has the same numbers as one that lines suggest."""
-    face = Rectangle(0.4, 0.33, 0.3, 0.3)
-    seams = [seams_of(raster_with([face]), 0.0)]
-    found, put = by_lines(seams, []), placed(seams, [face])
-    assert len(put) == 1
-    nearest = int(np.abs(found.values[:, :4] - put.values[0, :4]).max(axis=1).argmin())
-    assert np.abs(found.measured[nearest, :4] - put.measured[0, :4]).max() < 0.25
+    seams = [seams_of(raster_with([Rectangle(0.4, 0.33, 0.3, 0.3)]), 0.0)]
+    found = by_lines(seams, [])
+    some = range(0, len(found), max(len(found) // 20, 1))
+    again = placed(seams, [found.rectangles[k] for k in some])
+    assert again.values == pytest.approx(found.values[some])
+    assert again.measured == pytest.approx(found.measured[some])
 
 
 @given(st.lists(st.floats(-3.0, 3.0), min_size=1, max_size=30), st.integers(1, 8))
