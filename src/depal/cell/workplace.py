@@ -151,6 +151,10 @@ def nothing_doubted() -> None:
     """A sight that relies on nothing."""
 
 
+def nothing_denied(_box: BoxId) -> None:
+    """A sight that makes nothing up."""
+
+
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -174,6 +178,7 @@ class Workplace:
         seen_to: whether a person has looked for what the note promises and no look shows.
         learn: told the product of a box that was shown to the reader.
         doubt: told when the next look must not rely on those before.
+        denied: told that a box is none.
     """
 
     layout: CellLayout
@@ -193,6 +198,7 @@ class Workplace:
     seen_to: bool = False
     learn: Callable[[BoxId, Product], None] = nothing_learned
     doubt: Callable[[], None] = nothing_doubted
+    denied: Callable[[BoxId], None] = nothing_denied
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -260,6 +266,11 @@ class Workplace:
         self.ended(box, Fate.LOST, reason="fell out of the gripper")
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
         self.allocate(Call("recover", (box,), FIRST))
+
+    def deny(self, box: Perceived) -> None:
+        """A box is not there, a person says: neither now nor later, as long as it looks so."""
+        self.pile.forget(box.id, self.now)
+        self.denied(box.id)
 
     def mistrust(self, box: BoxId, reasons: Iterable[str]) -> None:
         """A box in the gripper is not what it was taken for: it will be shown to the reader."""

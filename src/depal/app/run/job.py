@@ -171,7 +171,7 @@ async def _run(
     desk = Desk(work, planner)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
-        work.learn, work.doubt = sight.learn, sight.doubt
+        work.learn, work.doubt, work.denied = sight.learn, sight.doubt, sight.deny
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)

@@ -133,6 +133,10 @@ class CameraSight:
         """Something is not as it looked: the next look takes nothing over from those before."""
         self._doubting = True
 
+    def deny(self, name: BoxId) -> None:
+        """A person has looked: what goes by this name is no box."""
+        self.memory = self.memory.forgetting(name)
+
     @property
     def frames(self) -> tuple[Frame, ...]:
         """Those of the last look; none before the first."""

@@ -20,6 +20,11 @@ ALIKE = 0.010
 """Rectangles whose sides all lie so near to one another are the same [m]."""
 
 
+RATHER = 0.045
+FEW = 4
+"""Of rectangles whose sides lie so near to one another [m], only the few best are weighed."""
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Candidates:
     """Rectangles with what was measured of each.
@@ -124,7 +129,8 @@ def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp
     for index in order.tolist():
         if len(kept) == most:
             break
-        if kept and (np.abs(chosen[: len(kept)] - sides[index]).max(axis=1) <= ALIKE).any():
+        away = np.abs(chosen[: len(kept)] - sides[index]).max(axis=1)
+        if (away <= ALIKE).any() or (away <= RATHER).sum() >= FEW:
             continue
         chosen[len(kept)] = sides[index]
         kept.append(index)
