@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from printed_faces import PLAIN, SIBLING, STRANGER, A, book_of_drawings, note_of
+from printed_faces import PLAIN, SIBLING, STRANGER, A, book_of_drawings, note_of, product
 
 from depal.domain import Product
 from depal.geometry import Pose
@@ -146,3 +146,16 @@ def test_a_raster_smaller_than_any_print_shows_nothing() -> None:
         np.ascontiguousarray(grey.known[:30, :30]),
     )
     assert sightings(small, GALLERY) == ()
+
+
+@pytest.mark.parametrize("edge", [0.2, 0.203, 0.207, 0.211, 0.354])
+def test_a_face_of_any_size_is_found(edge: float) -> None:
+    """However its edges lie between the pixels in which it is searched for."""
+    shown = product(int(A.gtin), (edge, edge - 0.035, 0.17))
+    gallery = gallery_of(book_of_drawings(shown), note_of(shown))
+    for side, facing in (("side", Facing.FRONT), ("end", Facing.FRONT), ("top", Facing.TOP)):
+        found = sightings(raster_with([(shown, side, 0.45, 0.4, 0.0)], facing), gallery)
+        sighting = at(found, 0.45, 0.4)
+        assert sighting is not None
+        assert sighting.name.side == side
+        assert sighting.name.score > 0.9

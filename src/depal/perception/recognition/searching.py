@@ -22,6 +22,9 @@ APART = 5
 KNOWN = 0.55
 """Share of a place's pixels that must be known."""
 
+HALF = 0.5
+"""Rows and columns of a print count where they lie on it by so much."""
+
 FAINT = 0.004
 """Mean square of a place's features below which nothing is printed there."""
 
@@ -85,14 +88,22 @@ def peaks(raster: Features, facing: Facing, gallery: Gallery) -> list[Peak]:
 
 def _sums(integral: npt.NDArray[np.float64], weights: Narrow) -> npt.NDArray[np.float64]:
     """Sums under a window of these weights at every place: over its frame, less its blank part."""
-    rows, columns = weights.shape
-    total = _box(integral, (0, 0, rows, columns), (rows, columns))
-    inner = weights[1:-1, 1:-1] < 0.5  # noqa: PLR2004
-    blank = np.argwhere(inner) + 1
-    if len(blank):
-        (top, left), (bottom, right) = blank.min(axis=0), blank.max(axis=0) + 1
-        total = total - _box(integral, (top, left, bottom, right), (rows, columns))
+    window = (weights.shape[0], weights.shape[1])
+    frame = _around(weights > HALF)
+    total = _box(integral, frame, window)
+    top, left, bottom, right = frame
+    # At a corner of the frame both its row and its column count by half or more.
+    blank = weights[top:bottom, left:right] < HALF * HALF
+    if blank.any():
+        a, b, c, d = _around(blank)
+        total = total - _box(integral, (top + a, left + b, top + c, left + d), window)
     return np.maximum(total, 0.0)
+
+
+def _around(flags: npt.NDArray[np.bool_]) -> tuple[int, int, int, int]:
+    """First row, first column, and the ends of rows and columns that hold any flag."""
+    rows, columns = (np.flatnonzero(flags.any(axis=axis)) for axis in (1, 0))
+    return int(rows[0]), int(columns[0]), int(rows[-1]) + 1, int(columns[-1]) + 1
 
 
 def _box(

@@ -15,7 +15,7 @@ from depal.perception.recognition.searching import Peak, peaks
 NEAR = 0.03
 """Peaks whose middles are nearer are of one place, if their prints are as large [m]."""
 
-ALIKE = 0.03
+ALIKE = 0.012
 """Prints whose edges differ by less are as large [m]."""
 
 STEPS = 12
@@ -104,24 +104,48 @@ def _size(peak: Peak) -> tuple[float, float]:
 
 
 def _sighting(place: list[Peak], raster: Raster, fine: Features, step: float) -> Sighting | None:
-    """A place looked at closely."""
-    best, middle = place[0], step / 2 - raster.step / 2
-    width, height = _size(best)
-    u, v = best.column * step + middle, best.row * step + middle
-    rectangle = Rectangle(u, v, width, height)
-    seen = cut_out(fine, rectangle, FINE * 2).turned(-best.quarter)
-    motion = registered(seen, best.printed.middle, Motion(), every=2, steps=STEPS)
-    names = [_named(seen, peak, motion) for peak in place]
-    names.sort(key=lambda name: -name.score)
+    """A place looked at closely; the print that agrees best there says how large the face is."""
+    rectangle, motion, names = _closely(place[0], place, raster, fine, step)
+    winner = next(peak for peak in place if peak.printed.product.gtin == names[0].gtin)
+    if winner is not place[0]:
+        rectangle, motion, names = _closely(winner, place, raster, fine, step)
     x, y = motion.middle
-    for _ in range(best.quarter):
+    for _ in range(names[0].quarter):
         x, y = -y, x
     if names[0].score < LEAST or max(abs(x), abs(y)) > MOVED:
         return None
-    moved = replace(rectangle, u=u + x, v=v + y, turn=-motion.turn)
+    moved = replace(
+        rectangle, u=rectangle.u + x, v=rectangle.v + y, turn=rectangle.turn - motion.turn
+    )
     depth, share = _depth(raster, moved)
     rivals = tuple(name for name in names[1:] if name.score > names[0].score - TIE)
     return Sighting(replace(moved, depth=depth), names[0], rivals, share)
+
+
+def _closely(
+    leader: Peak, place: list[Peak], raster: Raster, fine: Features, step: float
+) -> tuple[Rectangle, Motion, list[Name]]:
+    """The leader's print laid over its place, and how well all prints of the place agree there.
+
+    Args:
+        leader: whose size and pose are tried.
+        place: all peaks of the place.
+        raster: where it is.
+        fine: the raster's features.
+        step: edge of a pixel in which peaks are told [m].
+
+    Returns:
+        The leader's rectangle before it was laid, the motion, and the names, the best first.
+    """
+    middle = step / 2 - raster.step / 2
+    width, height = _size(leader)
+    u, v = leader.column * step + middle, leader.row * step + middle
+    rectangle = Rectangle(u, v, width, height)
+    seen = cut_out(fine, rectangle, FINE * 2).turned(-leader.quarter)
+    motion = registered(seen, leader.printed.middle, Motion(), every=2, steps=STEPS)
+    names = [_named(seen, peak, motion) for peak in place if peak.quarter == leader.quarter]
+    names.sort(key=lambda name: -name.score)
+    return rectangle, motion, names
 
 
 def _named(seen: Features, peak: Peak, motion: Motion) -> Name:
