@@ -22,6 +22,7 @@ from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
+from depal.cell.feedback import Feedback
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
@@ -174,7 +175,7 @@ async def _run(
     desk = Desk(work, planner)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
-        work.learn, work.doubt, work.denied = sight.learn, sight.doubt, sight.deny
+        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny)
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
