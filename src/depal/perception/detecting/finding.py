@@ -106,7 +106,7 @@ class Finder:
         odds = self.score.log_odds(features)
         kept = best(candidates, odds, MOST)
         values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))
-        chosen = packed((*candidates[kept].rectangles, *fixed), values)
+        chosen = packed((*candidates[kept].rectangles, *fixed), values, raster)
         return tuple(
             self._found(candidates, int(row), float(odds[row]), agreed[row], prints or ())
             for row in (kept[k] for k in chosen if k < len(kept))
