@@ -11,13 +11,14 @@ from depal.domain import EURO_PALLET, Gtin, PalletStand, Product, cell_from_pall
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.perception.assembling import boxes_of
 from depal.perception.assembling.sizing import Seen, sized
-from depal.perception.faces import Face, Facing, Name, SeenBox
+from depal.perception.faces import Errors, Face, Facing, Name, SeenBox
 from depal.perception.rasters import Region
 
 REGION = Region.above(PalletStand(cell_from_pallet(EURO_PALLET), EURO_PALLET))
 SMALL = Product(Gtin("00000000000017"), "small", (0.30, 0.20, 0.15), 3.0)
 LARGE = Product(Gtin("00000000000024"), "large", (0.40, 0.25, 0.22), 6.0)
 PRODUCTS = (SMALL, LARGE)
+EXACT = Errors(tuple(tuple(row) for row in (np.eye(4) * 1e-14).tolist()), 0, (0.0,) * 4)
 
 
 def faces_of(
@@ -29,8 +30,8 @@ def faces_of(
     front = Pose((-depth / 2, 0.0, 0.0), ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)))
     top = Pose((0.0, 0.0, height / 2), ((0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
     return (
-        Face(Facing.FRONT, box @ front, (width, height), 0.9, name=name),
-        Face(Facing.TOP, box @ top, (width, depth), 0.9),
+        Face(Facing.FRONT, box @ front, (width, height), 0.9, name=name, errors=EXACT),
+        Face(Facing.TOP, box @ top, (width, depth), 0.9, errors=EXACT),
     )
 
 

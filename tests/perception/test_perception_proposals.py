@@ -115,7 +115,7 @@ def test_the_best_come_first_and_none_is_like_another(odds: list[float], most: i
         + [np.full(count, 0.1)] * 2
         + [np.zeros(count)] * 2
     )
-    candidates = Candidates(values, np.zeros((count, 20)))
+    candidates = Candidates(values, np.zeros((count, 21)))
     rows = best(candidates, np.array(odds), most)
     assert len(rows) <= most
     chosen = [odds[row] for row in rows]

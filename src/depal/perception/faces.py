@@ -96,6 +96,23 @@ class Name:
 
 
 @dataclass(frozen=True, slots=True)
+class Errors:
+    """How exactly a face's place is known: u, v along its own axes, its depth, its yaw.
+
+    The yaw is that of the box, clockwise as seen from above.
+
+    Attributes:
+        covariance: (4, 4) of the four [m, rad], but for what the camera does wrong everywhere.
+        camera: that has seen it, by its place among the frames.
+        sway: by how much the four change for each share by which the camera's depths are too long.
+    """
+
+    covariance: tuple[tuple[float, ...], ...]
+    camera: int
+    sway: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Face:
     """A detected face.
 
@@ -106,6 +123,7 @@ class Face:
         score: the probability that it is a face of one box.
         visible: share of it that a camera saw.
         name: what its print says, where anything matches.
+        errors: of its pose; None where nobody has measured it closely.
     """
 
     facing: Facing
@@ -114,6 +132,7 @@ class Face:
     score: float
     visible: float = 1.0
     name: Name | None = None
+    errors: Errors | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,36 +1,40 @@
 """A found face, seen finely: where exactly it is, and what its print says."""
 
+import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 
-from depal.geometry import Pose
-from depal.perception.faces import Face
+from depal.perception.faces import Errors, Face, Facing
 from depal.perception.recognition import Gallery, identify
-from depal.perception.recognition.rectifying import rectified
-from depal.perception.refining import refined
+from depal.perception.recognition.identity import Identity
+from depal.perception.recognition.patches import Patch
+from depal.perception.recognition.rectifying import best_view, rectified
+from depal.perception.refining import Belief, by_depths, by_print, by_sides, moved
+from depal.perception.refining.belief import DEPTH, HEIGHT, SWING, TURN, WIDTH, U, V
 from depal.ports import Frame
+
+Floats = npt.NDArray[np.float64]
 
 SNAP = 0.018
 """A face whose edges differ from an expected size by less has that size [m]."""
 
+FOUND = (0.008, 0.008, 0.02)
+"""How far off a face is where it was found: along its width and height, in depth [m]."""
 
-@dataclass(frozen=True, slots=True)
-class _Move:
-    """From where a face was thought to be to where something says it is, with deviations.
+LEVEL = math.radians(0.5)
+"""Boxes stand so upright, as a standard deviation [rad]."""
 
-    Attributes:
-        du: along its width [m].
-        dv: downward [m].
-        turn: clockwise [rad].
-        sigma: standard deviations of the three.
-    """
+TURNED = {Facing.FRONT: math.radians(2.5), Facing.TOP: math.radians(1.5)}
+"""A found face's yaw is known so well [rad]."""
 
-    du: float
-    dv: float
-    turn: float
-    sigma: tuple[float, float, float]
+CUT, UNKNOWN = 0.0005, 0.01
+"""Boxes are as large as their product to the first, and as they were found to the second [m]."""
+
+RESEMBLES = 0.6
+"""A print that agrees less well says nothing about where its face is."""
 
 
 def located(
@@ -39,7 +43,7 @@ def located(
     sizes: Sequence[tuple[float, float]],
     gallery: Gallery | None,
 ) -> Face:
-    """The face where its edges and its print say that it is, named by its print.
+    """The face where its depths, its print and its edges say that it is, named by its print.
 
     Args:
         face: as it was found.
@@ -49,25 +53,64 @@ def located(
     """
     size = _nearest(face.size, sizes)
     face = face if size is None else replace(face, size=size)
+    view = best_view(frames, face.cell_from_face)
+    if view is None:
+        return face
+    belief = _found(face.facing, known=size is not None)
+    depths = by_depths(frames[view], face.cell_from_face, face.size)
+    if depths is not None:
+        belief += depths[0]
+        face, belief = _moved(face, belief)
     patch = rectified(frames, face.facing, face.cell_from_face, face.size)
     if patch is None:
         return face
-    edges = refined(patch, fixed=size is not None)
-    moves = [_Move(edges.du, edges.dv, edges.turn, edges.sigma)]
-    name = face.name
     identity = identify(patch, gallery) if gallery is not None else None
-    if identity is not None:
-        name, print_ = identity.name, identity.refined
-        moves.append(_Move(print_.du, print_.dv, print_.turn, print_.sigma))
-    move = _together(moves)
-    c, s = float(np.cos(move.turn)), float(np.sin(move.turn))
-    shift = Pose((move.du, move.dv, 0.0), ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
-    return replace(
-        face,
-        cell_from_face=face.cell_from_face @ shift,
-        size=(edges.width, edges.height),
-        name=name,
+    if identity is not None and gallery is not None:
+        face = replace(face, name=identity.name)
+        belief += _printed(patch, identity, gallery, belief)
+    belief += by_sides(patch, belief)
+    face, belief = _moved(face, belief)
+    sway = np.zeros(7)
+    if depths is not None:
+        sway = belief.covariance @ (depths[0].information[:, DEPTH] * depths[1])
+    return replace(face, errors=_errors(face.facing, belief.covariance, sway, view))
+
+
+def _found(facing: Facing, *, known: bool) -> Belief:
+    """What is known of a face that was found on a raster."""
+    turned, size = TURNED[facing], CUT if known else UNKNOWN
+    swing, turn = (turned, LEVEL) if facing is Facing.FRONT else (LEVEL / 50, turned)
+    return Belief.around((*FOUND, swing, turn, size, size))
+
+
+def _moved(face: Face, belief: Belief) -> tuple[Face, Belief]:
+    """The face where it is believed to be, and what is believed of it there."""
+    step = belief.mean
+    width, height = face.size
+    size = (width + float(step[WIDTH]), height + float(step[HEIGHT]))
+    there = replace(face, cell_from_face=moved(face.cell_from_face, step), size=size)
+    return there, belief.from_there(step)
+
+
+def _printed(patch: Patch, identity: Identity, gallery: Gallery, belief: Belief) -> Belief:
+    """What the print says, where it is the right one."""
+    name, start = identity.name, identity.refined
+    printed = next(
+        each for each in gallery.prints if each.product.gtin == name.gtin and each.side == name.side
     )
+    if patch.eye is None or name.score < RESEMBLES:
+        return Belief(np.zeros((7, 7)), np.zeros(7))
+    print_ = printed.levels[1].turned(name.quarter)
+    begin = (start.du, start.dv, start.turn)
+    return by_print(patch.features, print_, patch.eye, belief, begin)
+
+
+def _errors(facing: Facing, covariance: Floats, sway: Floats, view: int) -> Errors:
+    """Of the four numbers that place a face."""
+    chosen = [U, V, DEPTH, SWING if facing is Facing.FRONT else TURN]
+    block = covariance[np.ix_(chosen, chosen)]
+    rows = tuple(tuple(row) for row in block.tolist())
+    return Errors(rows, view, tuple(sway[chosen].tolist()))
 
 
 def _nearest(
@@ -79,13 +122,3 @@ def _nearest(
     away = np.abs(np.array(sizes) - size).max(axis=1)
     best = int(away.argmin())
     return sizes[best] if away[best] < SNAP else None
-
-
-def _together(moves: Sequence[_Move]) -> _Move:
-    """The mean of several moves, the more exact ones counting more."""
-    values = np.array([(each.du, each.dv, each.turn) for each in moves])
-    weights = 1.0 / np.array([each.sigma for each in moves]) ** 2
-    mean = (values * weights).sum(axis=0) / weights.sum(axis=0)
-    sigma = weights.sum(axis=0) ** -0.5
-    du, dv, turn = mean.tolist()
-    return _Move(du, dv, turn, (float(sigma[0]), float(sigma[1]), float(sigma[2])))

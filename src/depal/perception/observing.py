@@ -13,7 +13,7 @@ from depal.geometry import Pose, Vector3
 from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
 from depal.perception.detecting import Expected, Finder, Found, Printed
-from depal.perception.faces import Face, Facing, Look, Raster, Rectangle
+from depal.perception.faces import Face, Look, Raster, Rectangle
 from depal.perception.locating import located
 from depal.perception.rasters import Region, rasters_of
 from depal.perception.recognition import Gallery, sightings
@@ -21,12 +21,6 @@ from depal.perception.relations import relations_of
 from depal.ports import Frame
 
 Flags = npt.NDArray[np.bool_]
-
-STEEPEST = math.radians(6)
-"""A front's yaw is taken from its depths up to this; they are noisy."""
-
-TRUST = 0.3
-"""Of a front's slope so much is believed, for most boxes stand straight."""
 
 AROUND = 0.018
 """A face is found anew where anything has changed on it or so near to it [m]."""
@@ -63,9 +57,9 @@ class Observation:
     """What a look has made of its frames.
 
     Attributes:
-        look: the boxes.
+        look: the boxes, with faces where the boxes have them.
         rasters: what was seen.
-        faces: found on each raster.
+        faces: found on each raster, where each by itself seemed to be.
     """
 
     look: Look
@@ -106,7 +100,8 @@ class Observer:
             found.append((*kept, *new))
         faces = (tuple(found[0]), tuple(found[1]))
         boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
-        look = Look(boxes, *relations_of(boxes), faces=(*faces[0], *faces[1]))
+        settled = tuple(face for box in boxes for face in box.faces)
+        look = Look(boxes, *relations_of(boxes), faces=settled)
         return Observation(look, rasters, faces)
 
     def _faces(
@@ -135,10 +130,6 @@ def rectangle_of(raster: Raster, face: Face) -> Rectangle:
 def _laid(raster: Raster, found: Found) -> Face:
     """A found face in the cell."""
     pose = raster.pose_of(found.rectangle)
-    if raster.facing is Facing.FRONT:
-        yaw = math.atan(float(np.clip(found.slopes[0], -STEEPEST, STEEPEST))) * TRUST
-        c, s = math.cos(yaw), math.sin(yaw)
-        pose = pose @ Pose(rotation=((c, 0.0, -s), (0.0, 1.0, 0.0), (s, 0.0, c)))
     size = (found.rectangle.width, found.rectangle.height)
     return Face(raster.facing, pose, size, found.probability, found.known, found.name)
 

@@ -60,7 +60,7 @@ class Minding:
             if tree.root.node.args == (box,) and tree.root.node.schema.name != "recover":
                 runtime.withdraw(number, "a person has taken the box")
         await out_of_view(self._work, self._desk)
-        self._work.doubt()
+        self._work.feedback.doubt()
         self._work.pile.see(await self._work.ports.sight.look())
         facts = ((f"{box}.fault", None), (f"{box}.on_floor", False), (f"{box}.decision", None))
         return Report(facts)

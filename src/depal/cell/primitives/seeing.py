@@ -100,7 +100,7 @@ class Seeing:
         vague = [verdict for verdict in free if may_pass(self._work, verdict.box)]
         if vague and self._again < AGAIN:
             self._again += 1  # another look may tell
-            self._work.doubt()
+            self._work.feedback.doubt()
             return Report(unseen, reason=f"box {vague[0].box.id}: {vague[0].reason}")
         self._again = 0
         box, reason = free[0].box, free[0].reason
@@ -126,7 +126,7 @@ class Seeing:
         work = self._work
         if self._blank < BLANK:
             self._blank += 1
-            work.doubt()
+            work.feedback.doubt()
             return "no box is seen"
         work.seen_to = True
         number = 0

@@ -78,7 +78,7 @@ class Taking:
         if box not in work.doubted:
             return None
         await out_of_view(work, self._desk)
-        work.doubt()
+        work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"

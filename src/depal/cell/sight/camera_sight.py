@@ -94,7 +94,7 @@ class CameraSight:
         self._pile: Pile | None = None
         self._doubting = False
         self._covered: Callable[[], bool] = lambda: False
-        self.memory = memory or Memory()
+        self.memory = Memory() if memory is None else memory
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
         self.last: Look | None = None
         self.spent: list[float] = []

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -13,18 +14,35 @@ from depal.perception.assembling.pairing import paired
 from depal.perception.assembling.sizing import Seen, Sized, sized
 from depal.perception.faces import Face, Facing, SeenBox
 from depal.perception.rasters.region import Region
+from depal.perception.settling import Draft, Place, settled
 
-SIDEWAYS, DEPTH, TURN = 0.003, 0.004, math.radians(0.7)
-"""Standard deviations of a face's middle in its plane and square to it [m], and of its yaw."""
-
-NAMED = 0.6
-"""With a print the place in the plane is known to this share of that."""
+Floats = npt.NDArray[np.float64]
 
 GUESSED = 0.04
 """Standard deviation of an edge that nobody has seen [m]."""
 
+UPRIGHT = math.radians(0.2)
+"""Boxes stand so upright, as a standard deviation [rad]."""
+
+FREE = [0, 1, 2, 5]
+"""Of a pose's six numbers those that an upright box leaves open."""
+
 CARRIES = 0.05
 """A box stands on something that it overlaps by at least so much along x and y [m]."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Part:
+    """A box with its faces, before it is settled."""
+
+    front: Lying | None
+    top: Lying | None
+    size: Sized
+    gtin: Gtin | None
+
+    @property
+    def lying(self) -> tuple[Lying, ...]:
+        return tuple(each for each in (self.front, self.top) if each is not None)
 
 
 def boxes_of(
@@ -36,6 +54,9 @@ def boxes_of(
         faces: found in one look, none overlapping another of its kind.
         region: where they were looked for.
         products: what may be there, the likeliest first; none where nobody knows.
+
+    Returns:
+        Boxes that agree with each other; their faces lie where their boxes are.
     """
     region_from_cell = region.cell_from_region.inverse
     lying = [Lying.of(face, region_from_cell) for face in faces]
@@ -44,38 +65,67 @@ def boxes_of(
     pairs = paired(fronts, tops)
     rest = set(range(len(fronts))) - {front for front, _ in pairs}
     left = set(range(len(tops))) - {top for _, top in pairs}
-    found = [_box(fronts[i], tops[j], region, products, lying) for i, j in pairs]
-    found += [_box(fronts[i], None, region, products, lying) for i in sorted(rest)]
-    found += [_box(None, tops[j], region, products, lying) for j in sorted(left)]
-    return tuple(found)
+    both: list[tuple[Lying | None, Lying | None]] = [(fronts[i], tops[j]) for i, j in pairs]
+    both += [(fronts[i], None) for i in sorted(rest)]
+    both += [(None, tops[j]) for j in sorted(left)]
+    parts = [_part(front, top, region, products, lying) for front, top in both]
+    drafts = [_draft(part, region_from_cell) for part in parts]
+    places = settled(drafts, region.ground)
+    return tuple(
+        _box(part, draft, region, state, covariance)
+        for part, draft, state, covariance in zip(
+            parts, drafts, places.states, places.covariances, strict=True
+        )
+    )
 
 
-def _box(
+def _part(
     front: Lying | None,
     top: Lying | None,
     region: Region,
     products: Sequence[Product],
     all_: Sequence[Lying],
-) -> SeenBox:
+) -> _Part:
     parts = [each for each in (front, top) if each is not None]
     gtin, name = _named(parts), _supposed(parts)
-    main = front or top
-    if main is None:
-        raise ValueError("a box has at least one face")
     width = float(np.mean([each.width for each in parts]))
     seen = Seen(top.other if top else None, width, front.other if front else None)
     standing = () if front else _standing(parts[0], all_, region.ground)
-    size = sized(seen, products, gtin or name, standing)
-    pose = _pose(front, top, size)
-    score = 1.0 - float(np.prod([1.0 - each.face.score for each in parts]))
-    return SeenBox(
-        OrientedBox(region.cell_from_region @ pose, (size.depth, size.width, size.height)),
-        score,
-        _covariance(region.cell_from_region, front, top, size),
-        tuple(each.face for each in parts),
-        gtin,
-        size.certain,
+    return _Part(front, top, sized(seen, products, gtin or name, standing), gtin)
+
+
+def _draft(part: _Part, region_from_cell: Pose) -> Draft:
+    size = part.size
+    places = tuple(
+        Place(each.face, region_from_cell @ each.face.cell_from_face, each.yaw)
+        for each in part.lying
     )
+    stands = part.front is not None or size.certain
+    return Draft(places, (size.depth, size.width, size.height), stands)
+
+
+def _box(part: _Part, draft: Draft, region: Region, state: Floats, covariance: Floats) -> SeenBox:
+    shape = draft.shape(state)
+    cell_from_box = region.cell_from_region @ shape.pose
+    score = 1.0 - float(np.prod([1.0 - each.face.score for each in part.lying]))
+    return SeenBox(
+        OrientedBox(cell_from_box, draft.size),
+        score,
+        _covariance(part, region.cell_from_region, covariance),
+        tuple(_on(cell_from_box, draft.size, each.face) for each in part.lying),
+        part.gtin,
+        part.size.certain,
+    )
+
+
+def _on(cell_from_box: Pose, size: tuple[float, float, float], face: Face) -> Face:
+    """A face where its box has it."""
+    depth, width, height = size
+    if face.facing is Facing.FRONT:
+        way = Pose((-depth / 2, 0.0, 0.0), ((0.0, 0.0, 1.0), (-1.0, 0.0, 0.0), (0.0, -1.0, 0.0)))
+        return replace(face, cell_from_face=cell_from_box @ way, size=(width, height))
+    way = Pose((0.0, 0.0, height / 2), ((0.0, -1.0, 0.0), (-1.0, 0.0, 0.0), (0.0, 0.0, -1.0)))
+    return replace(face, cell_from_face=cell_from_box @ way, size=(width, depth))
 
 
 def _named(parts: Sequence[Lying]) -> Gtin | None:
@@ -101,40 +151,13 @@ def _standing(top: Lying, others: Sequence[Lying], ground: float) -> tuple[float
     return tuple(each for each in heights if each > CARRIES)
 
 
-def _pose(front: Lying | None, top: Lying | None, size: Sized) -> Pose:
-    """`region_from_box`: the middle, from the edges that were seen."""
-    if top is not None:
-        yaw = top.yaw
-    elif front is not None:
-        yaw = front.yaw
-    else:
-        raise ValueError("a box has at least one face")
-    c, s = math.cos(yaw), math.sin(yaw)
-    half = size.depth / 2
-    if front is not None and top is not None:
-        y = (front.y + half * s + top.y) / 2
-        x = (front.x + half * c + top.x) / 2
-        z = top.z - size.height / 2
-        z = (front.z + z) / 2
-    elif front is not None:
-        x, y, z = front.x + half * c, front.y + half * s, front.z
-    elif top is not None:
-        x, y, z = top.x, top.y, top.z - size.height / 2
-    return Pose.from_yaw((x, y, z), yaw)
-
-
-def _covariance(
-    cell_from_region: Pose, front: Lying | None, top: Lying | None, size: Sized
-) -> npt.NDArray[np.float64]:
+def _covariance(part: _Part, cell_from_region: Pose, block: Floats) -> Floats:
     """(6, 6) in the cell frame."""
-    named = any(each is not None and each.face.name is not None for each in (front, top))
-    side = SIDEWAYS * (NAMED if named else 1.0)
-    guess = 0.0 if size.certain else GUESSED
-    x = math.hypot(DEPTH if front else side, 0.0 if top else guess / 2)
-    z = math.hypot(side if front else DEPTH, 0.0 if front else guess / 2)
-    turn = TURN if top else 2 * TURN
-    turned = np.array(cell_from_region.rotation)
-    out = np.zeros((6, 6))
-    out[:3, :3] = turned @ np.diag([x**2, side**2, z**2]) @ turned.T
-    out[3:, 3:] = turned @ np.diag([(TURN / 3) ** 2, (TURN / 3) ** 2, turn**2]) @ turned.T
-    return out
+    own = np.zeros((6, 6))
+    own[np.ix_(FREE, FREE)] = block
+    own[3, 3] = own[4, 4] = UPRIGHT**2
+    if not part.size.certain:
+        own[0, 0] += 0.0 if part.top else (GUESSED / 2) ** 2
+        own[2, 2] += 0.0 if part.front else (GUESSED / 2) ** 2
+    turn = np.kron(np.eye(2), np.array(cell_from_region.rotation))
+    return np.asarray(turn @ own @ turn.T)

@@ -7,6 +7,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from depal.geometry import Vector3
 from depal.perception.faces import Facing, Raster, Rectangle
 from depal.perception.recognition.features import Features, features_of
 
@@ -37,6 +38,7 @@ class Patch:
         known: (h, w): seen by a camera.
         step: edge of a pixel [m].
         margin: see above [m].
+        eye: where the camera stands that saw it, in the face's frame [m]; None for a raster's.
     """
 
     facing: Facing
@@ -45,6 +47,7 @@ class Patch:
     known: Flags
     step: float = FINE
     margin: float = MARGIN
+    eye: Vector3 | None = None
 
     @property
     def features(self) -> Features:

@@ -44,17 +44,25 @@ def rectified(
     Returns:
         The face and a margin around it; None where no camera sees its middle.
     """
-    ranked = sorted(frames, key=lambda frame: -_fineness(frame, cell_from_face))
-    if not ranked or _fineness(ranked[0], cell_from_face) <= 0.0:
+    best = best_view(frames, cell_from_face)
+    if best is None:
         return None
-    frame, shape = ranked[0], patch_shape(size, step, MARGIN)
+    frame, shape = frames[best], patch_shape(size, step, MARGIN)
     camera_from_face = frame.cell_from_camera.inverse @ cell_from_face
     colour_from_patch = _homography(np.array(frame.colour_k), camera_from_face, shape, step)
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     colour = cv2.warpPerspective(frame.colour, colour_from_patch, shape, flags=flags)
     known = _inside(colour_from_patch, shape, frame.colour.shape)
     known &= ~_hidden(frame, camera_from_face, shape, step)
-    return Patch(facing, size, np.asarray(colour, dtype=np.uint8), known, step)
+    eye = camera_from_face.inverse.translation
+    return Patch(facing, size, np.asarray(colour, dtype=np.uint8), known, step, eye=eye)
+
+
+def best_view(frames: Sequence[Frame], cell_from_face: Pose) -> int | None:
+    """The frame that shows a face most finely, by its index; None where none shows its middle."""
+    fineness = [_fineness(frame, cell_from_face) for frame in frames]
+    best = max(range(len(frames)), key=fineness.__getitem__, default=None)
+    return None if best is None or fineness[best] <= 0.0 else best
 
 
 def _fineness(frame: Frame, cell_from_face: Pose) -> float:

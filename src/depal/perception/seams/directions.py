@@ -14,7 +14,7 @@ BIN = 0.5
 APART = 1.9
 """Directions that are searched differ by at least so much [degree]."""
 
-ENOUGH = 0.22
+ENOUGH = 0.3
 """A direction with this share of the strongest one's edges is searched too."""
 
 SMOOTH = 0.0045

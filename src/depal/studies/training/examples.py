@@ -33,6 +33,9 @@ NEAR = 0.4
 """Of a face whose middle is farther off than this share of a rectangle's shorter side, the
 rectangle covers too little."""
 
+BEHIND = 0.06
+"""A face that lies so far behind a rectangle, or before it, is another one [m]."""
+
 SEEN = 0.5
 """Of a face that teaches so much is visible."""
 
@@ -189,13 +192,16 @@ def coverage(
     """
     raster_from_cell = raster.cell_from_raster.inverse
     turn, shift = np.array(raster_from_cell.rotation), np.array(raster_from_cell.translation)
-    outlines = [(face.corners @ turn.T + shift)[:, :2] for face in faces]
+    places = [face.corners @ turn.T + shift for face in faces]
+    outlines = [place[:, :2] for place in places]
+    depths = np.array([place[:, 2].mean() for place in places])
     middles = np.array([outline.mean(axis=0) for outline in outlines]).reshape(-1, 2)
     covered, seen = np.zeros(len(candidates)), np.zeros(len(candidates))
     for row, rectangle in enumerate(candidates.rectangles):
         reach = NEAR * min(rectangle.width, rectangle.height)
         away = np.abs(middles - (rectangle.u, rectangle.v)).max(axis=1, initial=0.0)
-        for index in np.flatnonzero(away < reach).tolist():
+        near = (away < reach) & (np.abs(depths - rectangle.depth) < BEHIND)
+        for index in np.flatnonzero(near).tolist():
             share = agreement(rectangle.corners, outlines[index])
             if share > covered[row]:
                 covered[row], seen[row] = share, faces[index].visible
