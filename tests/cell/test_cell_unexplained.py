@@ -20,7 +20,6 @@ def box(x: float, y: float, size: tuple[float, float, float] = SIZE) -> Oriented
 
 def frame_of(boxes: list[OrientedBox], noise: float = 0.0) -> Frame:
     """What a small camera before the pallet measures: boxes, and a wall behind."""
-    k = np.array([[150.0, 0.0, 79.5], [0.0, 150.0, 59.5], [0.0, 0.0, 1.0]])
     turn = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
     eye = np.array([0.0, 0.0, 0.6])
     v, u = np.meshgrid(np.arange(120.0), np.arange(160.0), indexing="ij")

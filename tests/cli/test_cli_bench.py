@@ -41,6 +41,8 @@ def outcome_of(order: tuple[str, ...], **changes: object) -> Outcome:
         questions=(),
         referee=Summary({}, (), 0.0, (), (), ()),
         disagreements=(),
+        stack={},
+        differences=(),
         sim_seconds=10.0 * len(order) + 6.0,
         waiting_seconds=6.0,
         wall_seconds=3.0,

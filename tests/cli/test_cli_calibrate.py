@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from depal.app.calibrate import simulated_pictures
+from depal.app.calibrate import simulated_cameras
 from depal.cell.files import shipped_cell, shipped_text
 from depal.perception.calibration import read_calibrations
 from depal.perception.frames import RecordedFrame, write_frame_folder
@@ -26,6 +26,7 @@ def test_simulated_cameras_are_calibrated_written_and_drawn(depal: Run, tmp_path
     assert plot.read_bytes().startswith(b"\x89PNG")
     fields = json.loads(report.read_text())
     assert {"version", "command", "cell", "source", "frames", "cameras"} <= set(fields)
+    assert max(map(abs, fields["depth_off_truth"].values())) < 0.004
     found = read_calibrations(report)
     assert set(found) == {"front", "top"}
     for mount in shipped_cell().cameras:
@@ -45,7 +46,8 @@ def test_recorded_frames_are_calibrated(depal: Run, tmp_path: Path) -> None:
     """One camera's frames from a folder; a marker that was moved is told with status 1."""
     layout = shipped_cell()
     (mount,) = (mount for mount in layout.cameras if mount.name == "top")
-    (frame,) = simulated_pictures(layout, (mount,), 1, 3)["top"]
+    models, moment = simulated_cameras(layout, (mount,), 3)
+    frame = models["top"].frame(moment, 0.0, 0)
     recorded = replace(RecordedFrame.of_frame(frame), cell_from_camera=None)
     write_frame_folder(tmp_path / "frames" / "top" / "000", recorded)
     folder = tmp_path / "frames"

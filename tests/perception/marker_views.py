@@ -47,9 +47,19 @@ def mount_of(camera: str, name: str = "default") -> CameraMount:
     return next(mount for mount in layout_of(name).cameras if mount.name == camera)
 
 
+@functools.cache
+def model_of(
+    camera: str, share: float, name: str, moved: Pose | None, severity: Severity
+) -> CameraModel:
+    """A camera before a load, as the cell file has it or moved."""
+    mount = mount_of(camera, name)
+    there = replace(mount, cell_from_camera=mount.cell_from_camera @ (moved or Pose()))
+    return CameraModel(drawn(name, share)[0], there, 5, severity)
+
+
 def bias_of(camera: str, severity: Severity = Severity.NORMAL) -> float:
     """The share by which every depth of a camera's frames is wrong."""
-    return CameraModel(drawn("default", 1.0)[0], mount_of(camera), 5, severity).bias
+    return model_of(camera, 1.0, "default", None, severity).bias
 
 
 @functools.cache
@@ -62,8 +72,6 @@ def frame_of(
     severity: Severity = Severity.NORMAL,
 ) -> Frame:
     """One picture; a camera that was moved says that it still stands where the cell file has it."""
-    scene, snapshot = drawn(name, share)
-    mount = mount_of(camera, name)
-    there = replace(mount, cell_from_camera=mount.cell_from_camera @ (moved or Pose()))
-    frame = CameraModel(scene, there, 5, severity).frame(snapshot, 0.5 * number, number)
-    return replace(frame, cell_from_camera=mount.cell_from_camera)
+    model, (_, snapshot) = model_of(camera, share, name, moved, severity), drawn(name, share)
+    frame = model.frame(snapshot, 0.5 * number, number)
+    return replace(frame, cell_from_camera=mount_of(camera, name).cell_from_camera)

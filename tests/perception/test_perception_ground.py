@@ -1,6 +1,7 @@
 """Where a recorded frame stands: laws on pictures of a table with blocks on it."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -80,6 +81,16 @@ def test_far_is_up_in_the_picture_of_a_camera_that_looks_down() -> None:
     assert np.array(region_in([table(ahead)]).cell_from_region.rotation)[:, 0] == pytest.approx(
         (1.0, 0.0, 0.0), abs=0.01
     )
+
+
+def test_what_stands_aside_of_what_the_camera_is_aimed_at_is_left_out() -> None:
+    """Another block, larger and at the picture's edge."""
+    frame = table(aimed((0.01, 0.0, HIGH), (0.0, 0.0, 0.0)))
+    alone = region_in([frame])
+    depth = frame.depth.copy()
+    depth[:, :60] = HIGH - 0.5
+    both = region_in([replace(frame, depth=depth)])
+    assert both.size == pytest.approx(alone.size, abs=0.03)
 
 
 def test_the_same_frame_is_levelled_the_same_way() -> None:

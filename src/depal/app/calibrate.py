@@ -24,9 +24,13 @@ from depal.simulation.cases import cases_of
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.scenes.scene import parked
+from depal.simulation.world import Snapshot
 
 Pictures = Mapping[str, tuple[Frame, ...]]
 """The frames of each camera, by its name."""
+
+NEAR = 1.8
+"""Depths are compared with the truth at this distance [m]."""
 
 
 def calibration_report(
@@ -56,10 +60,16 @@ def calibration_report(
         what = f"there is no camera {camera!r}"
         raise SettingError("--camera", what, exists=did_you_mean(camera, mounts))
     chosen = tuple(mounts.values()) if camera is None else (mounts[camera],)
+    frames: Pictures
     if folder is None:
-        frames = simulated_pictures(layout, chosen, pictures, seed)
+        models, moment = simulated_cameras(layout, chosen, seed)
+        frames = {
+            name: tuple(model.frame(moment, 0.5 * number, number) for number in range(pictures))
+            for name, model in models.items()
+        }
+        biases = {name: model.bias for name, model in models.items()}
     else:
-        frames = recorded_pictures(folder, tuple(mount.name for mount in chosen))
+        frames, biases = recorded_pictures(folder, tuple(mount.name for mount in chosen)), {}
     found = {name: _calibrated(name, these, layout) for name, these in frames.items()}
 
     def draw() -> Figure:
@@ -72,26 +82,25 @@ def calibration_report(
             "source": source,
             "frames": {name: len(these) for name, these in frames.items()},
             "cameras": fields_of(found),
+            "depth_off_truth": {
+                name: _off_truth(found[name], bias) for name, bias in biases.items()
+            },
         },
-        shown=_shown(layout, mounts, frames, found),
+        shown=_shown(layout, frames, found, biases),
         draw=draw,
         holds=all(one.residual <= LIMIT for one in found.values()),
     )
 
 
-def simulated_pictures(
-    layout: CellLayout, mounts: tuple[CameraMount, ...], count: int, seed: int
-) -> Pictures:
-    """Pictures of a loaded pallet by the simulated cameras, the arm parked."""
+def simulated_cameras(
+    layout: CellLayout, mounts: tuple[CameraMount, ...], seed: int
+) -> tuple[dict[str, CameraModel], Snapshot]:
+    """The simulated cameras before a loaded pallet, and the moment: the arm is parked."""
     fits = [one for one in shipped_deliveries() if one.pallet_size == layout.pallet.size]
     cases = cases_of(fits[0], fits[0].stack or (), layout) if fits else ()
     drawn = CellScene(layout, cases)
-    snapshot = parked(layout, cases)
     models = {mount.name: CameraModel(drawn, mount, seed) for mount in mounts}
-    return {
-        name: tuple(model.frame(snapshot, 0.5 * number, number) for number in range(count))
-        for name, model in models.items()
-    }
+    return models, parked(layout, cases)
 
 
 def recorded_pictures(folder: Path, cameras: tuple[str, ...]) -> Pictures:
@@ -124,11 +133,13 @@ def _calibrated(name: str, frames: tuple[Frame, ...], layout: CellLayout) -> Cal
 
 def _shown(
     layout: CellLayout,
-    mounts: Mapping[str, CameraMount],
     frames: Pictures,
     found: Mapping[str, Calibration],
+    biases: Mapping[str, float],
 ) -> list[RenderableType]:
-    columns = ("camera", "x, y, z [m]", "from the cell file", "depth scale", "residual", "markers")
+    mounts = {mount.name: mount for mount in layout.cameras}
+    columns = ["camera", "x, y, z [m]", "from the cell file", "depth scale", "residual", "markers"]
+    columns += ["depths off the truth"] if biases else []
     table = plain_table(f"{layout.name}: cameras by their markers", *columns)
     lines = list[RenderableType]()
     for name, one in found.items():
@@ -143,6 +154,7 @@ def _shown(
             "unknown" if unknown else f"{one.depth.scale:.4f} ±{one.depth.error:.4f}{offset}",
             f"{1000 * one.residual:.1f} mm",
             f"{one.markers} of {len(there.expected.keys() | one.seen.keys())}",
+            *([f"{100 * _off_truth(one, biases[name]):+.2f} %"] if biases else []),
         )
         if one.residual > LIMIT:
             worst = max(one.seen, key=lambda pattern: one.seen[pattern])
@@ -156,6 +168,12 @@ def _shown(
             what = f"camera {name}: no depth was measured on its markers; its scale stays 1"
             lines.append(Text(what, style="yellow"))
     return [table, *lines]
+
+
+def _off_truth(found: Calibration, bias: float) -> float:
+    """How far a depth of a simulated camera is off once it is calibrated, as a share of it."""
+    told = NEAR * (1.0 + bias)
+    return (found.depth.scale * told + found.depth.offset) / NEAR - 1.0
 
 
 def _apart(one: Pose, other: Pose) -> tuple[float, float]:

@@ -25,7 +25,7 @@ def bindings(
     seeing, taking = Seeing(work, desk, notes), Taking(work, desk, guards)
     checking, leaving = Checking(work, desk, guards), Leaving(work, desk, guards)
     querying, exchanging = Querying(work, desk), Exchanging(work, desk)
-    minding, moving = Minding(work), Moving(work, desk, guards)
+    minding, moving = Minding(work, desk), Moving(work, desk, guards)
     primitives: dict[str, Primitive] = {
         "look": seeing.look,
         "select_box": seeing.select_box,

@@ -61,6 +61,39 @@ def plausible(delivery: Delivery, size: Vector3, *, unsized: bool = False) -> tu
     return tuple(product for product in products if fits(product, size, unsized=unsized))
 
 
+def size_by_weight(delivery: Delivery, size: Vector3, mass: float) -> Vector3 | None:
+    """The size of a box of which one edge is wrong, by what it weighs.
+
+    Args:
+        delivery: what it can be.
+        size: as seen, along the box's own axes [m].
+        mass: as felt [kg].
+
+    Returns:
+        The one size of all products that fit two of its edges and weigh so, along the same axes;
+        None where there is no such product, or they differ.
+    """
+    found = [
+        turned
+        for product in plausible(delivery, size, unsized=True)
+        if weighs_like(product, mass) and (turned := _turned(product.size, size)) is not None
+    ]
+    if not found:
+        return None
+    sizes = np.array(found)
+    a, b, c = sizes[0].tolist()
+    return (a, b, c) if np.ptp(sizes, axis=0).max() < SIZE_SPARE / 2 else None
+
+
+def _turned(size: Vector3, seen: Vector3) -> Vector3 | None:
+    """An upright case's size along the axes of a box of which two edges are seen so."""
+    a, b, c = size
+    ways = [(a, b, c), (b, a, c)]
+    off = [sorted(abs(p - q) for p, q in zip(way, seen, strict=True))[1] for way in ways]
+    best = min(range(2), key=lambda k: (off[k], k))
+    return ways[best] if off[best] <= SIZE_SPARE else None
+
+
 def resized(grasp: Grasp, old: Vector3, new: Vector3) -> Grasp:
     """A grasp of a box of which somebody has told the true size: the held face stays in place.
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from depal.domain import BoxId, Detection, Gtin, Perceived, Recognition
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import OrientedBox, Pose, Vector3
 from depal.perception.faces import SeenBox
 from depal.perception.memory import Memory, Remembered
+from depal.perception.memory.anchors import resized_at_its_face
 from depal.ports import View
 
 MISSED = 20
@@ -70,6 +71,7 @@ class Pile:
         self._taken: dict[BoxId, float] = {}
         self._left: dict[BoxId, Gtin | None] = {}
         self._read: dict[BoxId, Gtin] = {}
+        self._sizes: dict[BoxId, Vector3] = {}
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
         self.obstacles: tuple[OrientedBox, ...] = ()
@@ -121,6 +123,10 @@ class Pile:
         if box in self._left:
             self._left[box] = gtin
 
+    def resize(self, box: BoxId, size: Vector3) -> None:
+        """What was felt tells the size of a box better than what was seen [m, its own axes]."""
+        self._sizes[box] = size
+
     def doubt(self, box: BoxId) -> None:
         """What a box was taken to be is not so."""
         self._read.pop(box, None)
@@ -153,6 +159,8 @@ class Pile:
 
     def _known(self, box: Perceived) -> Perceived:
         gtin = self._read.get(box.id)
+        if box.id in self._sizes and isinstance(box, Detection):
+            box = replace(box, shape=resized_at_its_face(box.shape, self._sizes[box.id]))
         if gtin is None:
             return box
         if isinstance(box, Recognition):

@@ -2,12 +2,13 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
 from depal.cell.charges import Charges
 from depal.cell.departures import Departure, Departures, Fate
+from depal.cell.feedback import Feedback
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
@@ -143,14 +144,6 @@ class Ending:
             await self._over.wait()
 
 
-def nothing_learned(_box: BoxId, _product: Product) -> None:
-    """A sight that keeps no pictures."""
-
-
-def nothing_doubted() -> None:
-    """A sight that relies on nothing."""
-
-
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -172,8 +165,7 @@ class Workplace:
         doubted: boxes that were not as they looked: they are looked at before another try.
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
-        learn: told the product of a box that was shown to the reader.
-        doubt: told when the next look must not rely on those before.
+        feedback: told what the work finds out about boxes.
     """
 
     layout: CellLayout
@@ -191,8 +183,7 @@ class Workplace:
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
-    learn: Callable[[BoxId, Product], None] = nothing_learned
-    doubt: Callable[[], None] = nothing_doubted
+    feedback: Feedback = field(default_factory=Feedback)
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -260,6 +251,11 @@ class Workplace:
         self.ended(box, Fate.LOST, reason="fell out of the gripper")
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
         self.allocate(Call("recover", (box,), FIRST))
+
+    def deny(self, box: Perceived) -> None:
+        """A box is not there, a person says: neither now nor later, as long as it looks so."""
+        self.pile.forget(box.id, self.now)
+        self.feedback.deny(box.id)
 
     def mistrust(self, box: BoxId, reasons: Iterable[str]) -> None:
         """A box in the gripper is not what it was taken for: it will be shown to the reader."""

@@ -32,7 +32,7 @@ def calibrate(
 ) -> None:
     """Find camera poses and depth scales from the cell's markers; status 1 where they disagree.
 
-    The file of --json is what other commands take as --calibration.
+    The file of --json keeps them for other commands.
     """
     from depal.app.calibrate import calibration_report  # noqa: PLC0415 - fast help
     from depal.app.files import checked_targets, write_json  # noqa: PLC0415

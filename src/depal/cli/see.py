@@ -40,7 +40,7 @@ def see(
 ) -> None:
     """Find boxes in a frame: detections, names, scores and relations, as JSON and as a picture.
 
-    The JSON goes to the standard output, or to the file of --json; then a table is printed.
+    The JSON goes to the standard output; with --json to that file, and a table is printed instead.
     """
     from depal.app.files import checked_targets, report_text, write_json  # noqa: PLC0415 - fast help
     from depal.app.see import given  # noqa: PLC0415
@@ -51,11 +51,11 @@ def see(
     report = look_at(given(frame, note, book, cell))
     if json_file is None:
         typer.echo(report_text(report.fields), nl=False)
-        out = Console(stderr=True)
+        out, shown = Console(stderr=True), report.shown[-1:]
     else:
         write_json(json_file, report.fields)
-        out = console()
-    for part in report.shown:
+        out, shown = console(), report.shown
+    for part in shown:
         out.print(part, highlight=False, markup=False)
     if plot is not None and report.draw is not None:
         save_figure(report.draw(), plot)

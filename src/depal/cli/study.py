@@ -196,6 +196,12 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
+    perception: Annotated[
+        str, typer.Option(help="Where boxes come from: camera, or truth.")
+    ] = "truth",
+    severity: Annotated[
+        str, typer.Option(help="How far cameras and prints are from ideal.")
+    ] = "normal",
     workers: Workers = 1,
     dask: Dask = None,
     keep: Annotated[
@@ -215,7 +221,7 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     _check_targets(json_file, plot)
-    asked = Asked(deliveries, cell, w, requests, seeds, seed)
+    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
         result = run(asked, keep, executor, progress)

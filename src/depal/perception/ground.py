@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 
@@ -40,6 +41,9 @@ FLOOR = 0.04
 ABOVE = 0.05
 """What is lower above the ground is no box [m]."""
 
+LARGE = 0.01
+"""Connected things are as large as this share of the picture; smaller ones are specks."""
+
 AROUND = 0.06
 """Boxes are looked for so far beyond what is seen of them [m]."""
 
@@ -71,7 +75,9 @@ def levelled(frame: Frame) -> Frame:
 
 
 def region_in(frames: Sequence[Frame]) -> Region:
-    """Everything above the ground that the frames of one look show.
+    """Where the things stand that the frames of one look are aimed at.
+
+    Of each picture these are the connected things above the ground that are nearest to its middle.
 
     Args:
         frames: with their poses; z of the cell is up. The first one says what is far away.
@@ -79,9 +85,9 @@ def region_in(frames: Sequence[Frame]) -> Region:
     Raises:
         FrameError: there are too few depths, or nothing stands on the ground.
     """
-    points = np.concatenate([_in_cell(frame) for frame in frames])
-    ground = _ground(points[:, 2])
-    things = points[points[:, 2] > ground + ABOVE]
+    grids = [_in_cell(frame) for frame in frames]
+    ground = _ground(np.concatenate([grid[..., 2][~np.isnan(grid[..., 2])] for grid in grids]))
+    things = np.concatenate([_aimed_at(grid, ground) for grid in grids])
     if len(things) < FEWEST // 10:
         raise FrameError("depth.png", [Problem("", "nothing stands above the ground", "boxes")])
     turn = np.array(frames[0].cell_from_camera.rotation)
@@ -98,23 +104,42 @@ def region_in(frames: Sequence[Frame]) -> Region:
     return Region(Pose.from_arrays(origin, axes.T), (deep, wide, tall), BELOW)
 
 
+def _aimed_at(grid: Floats, ground: float) -> Floats:
+    """The points of the connected things nearest to a picture's middle, (n, 3)."""
+    above = (np.nan_to_num(grid[..., 2], nan=-np.inf) > ground + ABOVE).astype(np.uint8)
+    closed = cv2.morphologyEx(above, cv2.MORPH_CLOSE, np.ones((3, 3), dtype=np.uint8))
+    count, labels, stats, middles = cv2.connectedComponentsWithStats(closed)
+    large = [k for k in range(1, count) if stats[k, cv2.CC_STAT_AREA] > LARGE * above.size]
+    if not large:
+        return np.empty((0, 3))
+    middle = np.array(above.shape[::-1]) / 2
+    nearest = min(large, key=lambda k: float(np.linalg.norm(middles[k] - middle)))
+    return np.asarray(grid[(labels == nearest) & (above > 0)])
+
+
 def _in_cell(frame: Frame) -> Floats:
-    """Some of what is measured, (n, 3) in the cell [m]."""
+    """Some of what is measured, (h, w, 3) in the cell [m]; NaN where nothing is."""
     pose = frame.cell_from_camera
-    return np.asarray(_points(frame) @ np.array(pose.rotation).T + pose.translation)
+    return np.asarray(_grid(frame) @ np.array(pose.rotation).T + pose.translation)
 
 
 def _points(frame: Frame) -> Floats:
-    """Some of what is measured, (n, 3) in the camera's frame [m]."""
+    """The same, (n, 3) in the camera's frame, without what is not measured [m]."""
+    grid = _grid(frame)
+    return np.asarray(grid[~np.isnan(grid[..., 2])])
+
+
+def _grid(frame: Frame) -> Floats:
+    """Some of what is measured, (h, w, 3) in the camera's frame [m]; NaN where nothing is."""
     (fx, _, cx), (_, fy, cy), _ = frame.depth_k
     z = frame.depth[::EVERY, ::EVERY].astype(np.float64)
     rows, columns = np.indices(z.shape) * EVERY
-    points = np.stack(((columns - cx) / fx * z, (rows - cy) / fy * z, z), axis=-1)
-    measured = points[z > 0]
-    if len(measured) < FEWEST:
-        what = f"{len(measured)} of {z.size} depths are measured"
+    measured = int((z > 0).sum())
+    if measured < FEWEST:
+        what = f"{measured} of {z.size} depths are measured"
         raise FrameError("depth.png", [Problem("", what, f"at least {FEWEST}")])
-    return measured
+    z[z <= 0] = np.nan
+    return np.stack(((columns - cx) / fx * z, (rows - cy) / fy * z, z), axis=-1)
 
 
 def _greatest_plane(points: Floats) -> tuple[Floats, Floats]:

@@ -7,7 +7,7 @@ import numpy.typing as npt
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
-from depal.perception.faces import Rectangle
+from depal.perception.faces import Raster, Rectangle
 
 Floats = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
@@ -18,16 +18,22 @@ OVERLAP = 0.014
 GRID = 0.015
 """Overlap is looked for at points so far apart [m]."""
 
+HIDES = 0.03
+"""What is seen so far before a rectangle hides it there [m]."""
+
 NODES = 200
 """The search visits so many nodes at the most; nearly always the first is the solution."""
 
 
-def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
+def packed(
+    rectangles: Sequence[Rectangle], values: Floats, raster: Raster | None = None
+) -> list[int]:
     """The indices of the rectangles that together have the greatest value.
 
     Args:
         rectangles: in the plane of one raster.
         values: (n,) of each: the logarithm of its odds of being a face.
+        raster: what is seen: where something nearer hides a rectangle it may be overlapped.
 
     Returns:
         Indices, increasing; no two of them overlap.
@@ -35,7 +41,7 @@ def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
     useful = np.flatnonzero(values > 0.0)
     if not useful.size:
         return []
-    inside = _inside([rectangles[index] for index in useful.tolist()])
+    inside = _inside([rectangles[index] for index in useful.tolist()], raster)
     shared = np.unique(inside[inside.sum(axis=1) > 1], axis=0)
     if not len(shared):
         return [int(index) for index in useful]
@@ -51,7 +57,7 @@ def packed(rectangles: Sequence[Rectangle], values: Floats) -> list[int]:
     return [int(index) for index in useful[result.x > 0.5]]  # noqa: PLR2004
 
 
-def _inside(rectangles: Sequence[Rectangle]) -> Flags:
+def _inside(rectangles: Sequence[Rectangle], raster: Raster | None) -> Flags:
     """(points, n): which points of a grid lie inside which rectangles, made a little smaller."""
     middles = np.array([(each.u, each.v) for each in rectangles])
     halves = np.array([(each.width, each.height) for each in rectangles]) / 2 - OVERLAP / 2
@@ -65,7 +71,15 @@ def _inside(rectangles: Sequence[Rectangle]) -> Flags:
     c, s = np.cos(turns), np.sin(turns)
     along = np.abs(away[..., 0] * c + away[..., 1] * s)
     across = np.abs(away[..., 1] * c - away[..., 0] * s)
-    return np.asarray((along < halves[:, 0]) & (across < halves[:, 1]))
+    inside = (along < halves[:, 0]) & (across < halves[:, 1])
+    if raster is None:
+        return np.asarray(inside)
+    height, width = raster.depth.shape
+    rows = np.clip(np.round(points[:, 0, 1] / raster.step).astype(int), 0, height - 1)
+    columns = np.clip(np.round(points[:, 0, 0] / raster.step).astype(int), 0, width - 1)
+    before = np.array([each.depth for each in rectangles]) - raster.depth[rows, columns][:, None]
+    with np.errstate(invalid="ignore"):
+        return np.asarray(inside & ~(before > HIDES))
 
 
 def _greedy(shared: Flags, values: Floats, useful: npt.NDArray[np.intp]) -> list[int]:

@@ -73,7 +73,7 @@ def test_without_planes_the_scale_stays_one() -> None:
     assert DepthScale().error == float("inf")
 
 
-@settings(max_examples=10)
+@settings(max_examples=5)
 @given(SCALES, st.sampled_from(["front", "top"]), st.integers(0, 1 << 32))
 def test_planes_are_measured_as_they_are_drawn(scale: float, camera: str, seed: int) -> None:
     """An ideal floor and nothing else, with noise and holes: each floor plane has the scale."""

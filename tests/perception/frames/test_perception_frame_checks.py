@@ -137,7 +137,7 @@ def test_wrong_intrinsics_are_named(camera: str) -> None:
 
 
 @pytest.mark.parametrize("camera", CAMERAS)
-@pytest.mark.parametrize("way", [(0.03, 0.0, 0.0), (0.0, 0.03, 0.0), (0.0, 0.0, -0.03)])
+@pytest.mark.parametrize("way", [(0.03, 0.0, 0.0), (0.0, -0.03, 0.0), (0.0, 0.0, 0.03)])
 def test_a_camera_that_was_moved_is_named(camera: str, way: tuple[float, float, float]) -> None:
     """By three centimetres in any direction."""
     (finding,) = told(frame_of(camera, moved=Pose(way)), camera)

@@ -18,9 +18,11 @@ from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, one_of, policy_of, refuse_what_cannot_work
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
+from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
+from depal.cell.feedback import Feedback
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
@@ -144,6 +146,8 @@ def run_job(
     if record is not None:
         with progress_bar("Pictures") as progress:
             film.save(record, progress)
+        if outcome.scores is not None:
+            outcome.scores.save(record)
     return replace(outcome, wall_seconds=seconds)
 
 
@@ -171,7 +175,7 @@ async def _run(
     desk = Desk(work, planner)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
-        work.learn, work.doubt = sight.learn, sight.doubt
+        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny)
     notes = Journalist()
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
@@ -179,6 +183,8 @@ async def _run(
     view = LiveView(work, len(job.delivery.boxes))
     view.listen_to(notes)
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
+    scores = ScoreKeeper(work, lambda: sight.frames if isinstance(sight, CameraSight) else ())
+    scores.listen_to(notes)
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
@@ -186,7 +192,8 @@ async def _run(
     filming.cancel()
     film.take()
     _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
-    return _outcome(job, work, desk, cell, keeper, times), film
+    outcome = _outcome(job, work, desk, cell, keeper, times)
+    return replace(outcome, scores=scores.scores), film
 
 
 def _close_books(

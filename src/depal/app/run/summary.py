@@ -8,6 +8,7 @@ from rich.text import Text
 
 from depal.app.files import Json
 from depal.app.reports.report import Report, plain_table
+from depal.app.run.scoring import Scores
 from depal.cell.departures import Departure, Fate
 from depal.cell.questions import Asked
 from depal.cell.wishes import Wish
@@ -52,6 +53,7 @@ class Outcome:
         seed: of every random number.
         speed: share of full speed.
         events_sha256: of the event log.
+        scores: of the first selection in which a request counts.
     """
 
     delivery: str
@@ -74,6 +76,7 @@ class Outcome:
     seed: int
     speed: float
     events_sha256: str
+    scores: Scores | None = None
 
     @property
     def stored(self) -> int:
@@ -173,6 +176,8 @@ def run_report(outcome: Outcome, perception: str) -> Report:
         table.row(f"  {name}", f"{seconds:.1f} ({100 * seconds / outcome.sim_seconds:.0f} %)")
     table.row("real seconds", f"{outcome.wall_seconds:.1f}")
     shown: list[RenderableType] = [table]
+    if outcome.scores is not None:
+        shown.append(outcome.scores.table)
     shown += [Text(f"{box}: {what}: {reason}") for box, what, reason in outcome.exceptions]
     shown += [
         Text(f"product {d.gtin}: the note promises {d.promised}, {d.found} were found")
@@ -235,6 +240,10 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
             ],
             "suction_losses": [str(loss) for loss in outcome.referee.lost],
         },
+        "scores": [
+            {"box": box.name, "before": box.before, "after": box.after}
+            for box in (outcome.scores.boxes if outcome.scores is not None else ())
+        ],
         "perception": perception,
         "policy": outcome.policy,
         "w": outcome.w,

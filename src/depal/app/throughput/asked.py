@@ -2,13 +2,14 @@
 
 from dataclasses import dataclass
 
-from depal.app.run.inputs import cell_of, refuse_what_cannot_work
-from depal.app.run.values import Job
+from depal.app.run.inputs import cell_of, one_of, refuse_what_cannot_work
+from depal.app.run.values import PERCEPTIONS, TRUTH, Job
 from depal.app.unload import deliveries_of
 from depal.cell.workplace import Settings
 from depal.domain import checked_share
 from depal.errors import SettingError
 from depal.logistics.store import random_requests
+from depal.simulation.imaging.severity import Severity
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +23,8 @@ class Asked:
         requests: so many random requests for each delivery.
         seeds: each delivery is run so often, each time with the next seed.
         seed: the first one.
+        perception: where boxes come from: camera or truth.
+        severity: how far cameras and boxes are from ideal.
     """
 
     deliveries: str = ""
@@ -30,6 +33,8 @@ class Asked:
     requests: int = 3
     seeds: int = 1
     seed: int = 0
+    perception: str = TRUTH
+    severity: str = Severity.NORMAL.value
 
     def jobs(self) -> list[Job]:
         """Every run, delivery by delivery.
@@ -44,12 +49,23 @@ class Asked:
         ):
             if number < least:
                 raise SettingError(option, f"{number} is out of range", f"{least} or more")
+        perception = one_of("--perception", self.perception, PERCEPTIONS)
+        names = [each.value for each in Severity]
+        severity = Severity(one_of("--severity", self.severity, names))
         layout = cell_of(self.cell)
         deliveries = deliveries_of(self.deliveries)
         for delivery in deliveries:
             refuse_what_cannot_work(layout, delivery)
         return [
-            Job(layout, delivery, random_requests(delivery, self.requests, seed), settings, seed)
+            Job(
+                layout,
+                delivery,
+                random_requests(delivery, self.requests, seed),
+                settings,
+                seed,
+                perception=perception,
+                severity=severity,
+            )
             for delivery in deliveries
             for seed in range(self.seed, self.seed + self.seeds)
         ]

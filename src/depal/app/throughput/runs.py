@@ -13,8 +13,6 @@ from depal.app.throughput.kept import Kept
 from depal.app.throughput.row import Row
 from depal.studies.sweep import Progress, no_progress, sweep
 
-PERCEPTION = "truth"
-
 
 @dataclass(frozen=True, slots=True)
 class Failure:
@@ -107,7 +105,7 @@ def run_one(job: Job) -> dict[str, Json] | str:
     A run that breaks down is a result of the study: the others go on.
     """
     try:
-        fields = run_report(run_job(job), PERCEPTION).fields
+        fields = run_report(run_job(job), job.perception).fields
     except Exception as error:  # noqa: BLE001 - whatever it is, it is what we report
         return f"{type(error).__name__}: {error}"
     return {name: finite(value) for name, value in fields.items()}

@@ -132,6 +132,17 @@ class Picking:
             self._promises.keep_pick(plan)
         return plan
 
+    def park(self) -> Trajectory | None:
+        """To where the arm stands idle, with an empty hand."""
+        planner, folded = self._planner, self._work.ports.gripper.folded()
+        scene = self._promises.scene(self._work.pile)
+        part = planner.park(scene, folded=folded)
+        if isinstance(part, NoMotion):
+            return None
+        self._promises.next_start = None
+        empty = planner.mover.checker(scene, OPEN, folded=folded)
+        return planner.timing.along([part], checker=empty)
+
     def way_back(self, plan: PickPlan) -> Iterator[Trajectory]:
         """Back along the whole approach, with an empty hand: first straight off the box."""
         for part in reversed(plan.pick.approach):

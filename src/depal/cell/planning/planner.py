@@ -99,6 +99,11 @@ class Planner:
         )
         return found if isinstance(found, NoMotion) else found[0]
 
+    def park(self, scene: Scene, *, folded: bool) -> Part | NoMotion:
+        """With an empty hand from where the arm stands to where it stands idle."""
+        effort = self._effort(self.planned)
+        return self._measured(lambda: self.mover.park(self.here, scene, effort, folded=folded))
+
     def holding(self, load: Load) -> Holding:
         """What the suction has to hold."""
         return Holding.of(load.grasp, load.mass, self._work.layout.tool, size=load.size)

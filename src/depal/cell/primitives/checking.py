@@ -115,7 +115,7 @@ class Checking:
         if size is not None:
             grasp = resized(held.grasp, held.size, size)
             work.held = replace(held, size=size, grasp=grasp)
-        work.learn(box, product)
+        work.feedback.learn(box, product)
         work.aside_reasons.pop(box, None)
         work.wishes.identified(box, gtin, work.now)
         return Report(((f"{box}.known", True), (f"{box}.product", str(gtin))))

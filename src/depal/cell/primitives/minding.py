@@ -1,5 +1,7 @@
 """The primitives of `recover` and `ask_person`: a person decides."""
 
+from depal.cell.planning.desk import Desk
+from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report
@@ -10,9 +12,10 @@ from depal.ports import TAKEN, Question
 class Minding:
     """Talks to the supervising person."""
 
-    def __init__(self, work: Workplace) -> None:
-        """Asks through the workplace."""
+    def __init__(self, work: Workplace, desk: Desk) -> None:
+        """Asks through the workplace; moves by the plans of the desk."""
         self._work = work
+        self._desk = desk
         self._texts: dict[str, Question] = {}
 
     def pose(self, question: Question) -> None:
@@ -56,6 +59,8 @@ class Minding:
         for number, tree in list(runtime.engine.state.trees.items()):
             if tree.root.node.args == (box,) and tree.root.node.schema.name != "recover":
                 runtime.withdraw(number, "a person has taken the box")
+        await out_of_view(self._work, self._desk)
+        self._work.feedback.doubt()
         self._work.pile.see(await self._work.ports.sight.look())
         facts = ((f"{box}.fault", None), (f"{box}.on_floor", False), (f"{box}.decision", None))
         return Report(facts)

@@ -7,7 +7,7 @@ from depal.cell.reporting import Journalist
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Gtin, Recognition
 from depal.executive.engine import Call, Report
-from depal.executive.events import Change
+from depal.executive.events import Change, Outcome
 from depal.executive.runtime import Context
 from depal.ports import TAKEN, Question
 from depal.selection import Outcome as Selected
@@ -21,6 +21,9 @@ BLANK = 2
 ABSENT = "it is not there"
 """A person has looked, and there is no such box."""
 
+ABSENCES = 3
+"""A person is sent so often in a row for a box that is not there."""
+
 UNSHOWN = "unshown"
 """What boxes are called that the note promises and no look shows, when a person is asked."""
 
@@ -33,7 +36,7 @@ class Seeing:
         self._work = work
         self._desk = desk
         self._notes = notes
-        self._again = self._blank = 0
+        self._again = self._blank = self._absent = 0
 
     async def look(self, context: Context) -> Report:
         """Takes a picture and finds the boxes; what it learns of each is a fact of its own."""
@@ -75,7 +78,7 @@ class Seeing:
         if decision.target is None or decision.grasp is None:
             return await self._stuck(choice, pallet)
         box = decision.target.id
-        self._again = 0
+        self._again = self._absent = 0
         self._desk.promises.keep_pick(decision.grasp)
         store = Call("store", (box,), priority_of(decision, box))
         return Report(((f"{pallet}.next", box),), allocate=(store,))
@@ -97,7 +100,7 @@ class Seeing:
         vague = [verdict for verdict in free if may_pass(self._work, verdict.box)]
         if vague and self._again < AGAIN:
             self._again += 1  # another look may tell
-            self._work.doubt()
+            self._work.feedback.doubt()
             return Report(unseen, reason=f"box {vague[0].box.id}: {vague[0].reason}")
         self._again = 0
         box, reason = free[0].box, free[0].reason
@@ -110,8 +113,12 @@ class Seeing:
         )
         if await self._work.questions.ask(question) == TAKEN:
             self._work.ended(box.id, Fate.BY_PERSON, reason=reason)
-        else:
-            self._work.pile.forget(box.id, self._work.now)
+            self._absent = 0
+            return Report(unseen, reason=reason)
+        self._work.deny(box)
+        self._absent += 1
+        if self._absent > ABSENCES:
+            return Report(outcome=Outcome.FAILED, reason="what is seen on the pallet is not there")
         return Report(unseen, reason=reason)
 
     async def _nothing_seen(self) -> str:
@@ -119,7 +126,7 @@ class Seeing:
         work = self._work
         if self._blank < BLANK:
             self._blank += 1
-            work.doubt()
+            work.feedback.doubt()
             return "no box is seen"
         work.seen_to = True
         number = 0

@@ -3,9 +3,10 @@
 import asyncio
 
 from depal.cell.guards import Guards
-from depal.cell.identity import why_not
+from depal.cell.identity import size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
@@ -76,7 +77,8 @@ class Taking:
         work = self._work
         if box not in work.doubted:
             return None
-        work.doubt()
+        await out_of_view(work, self._desk)
+        work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"
@@ -92,6 +94,9 @@ class Taking:
         if mass < (NOTHING if least is None else LIGHT * least):
             return f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
         if most is not None and mass > HEAVY * most + SPARE:
+            size = size_by_weight(work.delivery, plan.box.shape.size, mass)
+            if size is not None and not isinstance(plan.box, Recognition):
+                work.pile.resize(plan.box.id, size)  # it is another product: taken anew as that
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
         return None
 

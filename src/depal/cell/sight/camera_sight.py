@@ -94,7 +94,7 @@ class CameraSight:
         self._pile: Pile | None = None
         self._doubting = False
         self._covered: Callable[[], bool] = lambda: False
-        self.memory = memory or Memory()
+        self.memory = Memory() if memory is None else memory
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
         self.last: Look | None = None
         self.spent: list[float] = []
@@ -132,6 +132,10 @@ class CameraSight:
     def doubt(self) -> None:
         """Something is not as it looked: the next look takes nothing over from those before."""
         self._doubting = True
+
+    def deny(self, name: BoxId) -> None:
+        """A person has looked: what goes by this name is no box."""
+        self.memory = self.memory.forgetting(name)
 
     @property
     def frames(self) -> tuple[Frame, ...]:

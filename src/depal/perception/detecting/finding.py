@@ -104,9 +104,10 @@ class Finder:
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
         odds = self.score.log_odds(features)
-        kept = best(candidates, odds, MOST)
+        likely = np.flatnonzero(odds > -self.eager)
+        kept = likely[best(candidates[likely], odds[likely], MOST)]
         values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))
-        chosen = packed((*candidates[kept].rectangles, *fixed), values)
+        chosen = packed((*candidates[kept].rectangles, *fixed), values, raster)
         return tuple(
             self._found(candidates, int(row), float(odds[row]), agreed[row], prints or ())
             for row in (kept[k] for k in chosen if k < len(kept))

@@ -7,7 +7,7 @@ import numpy as np
 from depal.perception.calibration.finding import grey_of
 from depal.ports import Frame
 
-EVERY = 4
+EVERY = 8
 """Every so many pixels along rows and columns are looked at."""
 
 DARK = 30

@@ -38,6 +38,7 @@ class Memory:
         named: how many names were given.
         places: names that somebody has given to places in advance, [m] in the cell frame.
         moved: boxes that the last look showed elsewhere than the looks before.
+        denied: what was seen and is no box, as somebody said who stood beside it.
         patience: so many looks in a row may miss a box before it is believed to be gone.
     """
 
@@ -46,6 +47,7 @@ class Memory:
     named: int = 0
     places: tuple[tuple[BoxId, Vector3], ...] = ()
     moved: frozenset[BoxId] = frozenset()
+    denied: tuple[Remembered, ...] = ()
     patience: int = PATIENCE
 
     def __iter__(self) -> Iterator[Remembered]:
@@ -62,8 +64,8 @@ class Memory:
 
     @property
     def hidden(self) -> frozenset[BoxId]:
-        """Boxes that the last look did not show."""
-        return frozenset(box.name for box in self.boxes if box.missed)
+        """Boxes that the last look did not show, or not where those before did."""
+        return frozenset(box.name for box in self.boxes if not box.settled)
 
     def update(self, look: Look, now: float) -> "Memory":
         """Lays a look over what was believed.
@@ -102,8 +104,10 @@ class Memory:
         return replace(self, boxes=kept, gone=(*self.gone, (box, now)))
 
     def forgetting(self, name: BoxId) -> "Memory":
-        """A box is not there, somebody says: it never was."""
-        return replace(self, boxes=tuple(box for box in self.boxes if box.name != name))
+        """A box is not there, somebody says: what looks like it is not believed again."""
+        box = self.get(name)
+        kept = tuple(other for other in self.boxes if other.name != name)
+        return self if box is None else replace(self, boxes=kept, denied=(*self.denied, box))
 
     def back(self, name: BoxId, seen: SeenBox, now: float) -> "Memory":
         """A box stands on the pallet again."""
@@ -112,10 +116,10 @@ class Memory:
         return replace(self, boxes=(*kept, Remembered(name, seen, last=now)), gone=gone)
 
     def _is_ghost(self, seen: SeenBox, now: float) -> bool:
-        """Whether this is a box that was taken, in a picture from before or just after."""
+        """Whether this is a box that was taken, in an old picture, or one that never was."""
+        old = [box for box, at in self.gone if now <= at + FRESH]
         return any(
-            now <= at + FRESH and between(box.seen.shape, seen.shape).total < GHOST
-            for box, at in self.gone
+            between(box.seen.shape, seen.shape).total < GHOST for box in (*old, *self.denied)
         )
 
     def _laid_over(
@@ -131,6 +135,8 @@ class Memory:
             after[name] = before[name].again(new[index], now)
             if between(before[name].seen.shape, new[index].shape).shift > MOVED:
                 moved.add(name)
+                if not part:  # such a sight is not wrong
+                    after[name] = Remembered(name, new[index], last=now)
         lasting = [
             after.get(box.name, box.unseen())
             for box in self.boxes

@@ -31,6 +31,7 @@ class Remembered:
         looks: how many these are.
         missed: how many looks in a row did not show it.
         last: when a look last showed it [s].
+        rival: where the last look showed it, if that was elsewhere: one look may be wrong.
     """
 
     name: BoxId
@@ -38,6 +39,12 @@ class Remembered:
     looks: int = 1
     missed: int = 0
     last: float = 0.0
+    rival: SeenBox | None = None
+
+    @property
+    def settled(self) -> bool:
+        """Whether the last look showed it, and where those before did."""
+        return not self.missed and self.rival is None
 
     @property
     def belief(self) -> float:
@@ -50,19 +57,27 @@ class Remembered:
         return self.seen.shape.centre
 
     def again(self, seen: SeenBox, now: float) -> "Remembered":
-        """A look shows it: averaged where it has not moved, else as it is now."""
+        """A look shows it: averaged where it has not moved, else as two looks show it."""
         before = self.seen
         turned = replace(seen, shape=aligned(seen.shape, before.shape))
-        moved = between(before.shape, turned.shape).shift > MOVED
+        if between(before.shape, turned.shape).shift > MOVED:
+            return self._elsewhere(turned, now)
         if before.sized and not turned.sized:
             shape = resized_at_its_face(turned.shape, before.shape.size)
             turned = replace(turned, shape=shape, sized=True)
         gtin = _agreed(before, turned)
-        if moved or (turned.sized and not before.sized) or self._resized(turned):
-            kept = replace(turned, gtin=gtin)
-            return replace(self, seen=kept, looks=1, missed=0, last=now)
+        if (turned.sized and not before.sized) or self._resized(turned):
+            return Remembered(self.name, replace(turned, gtin=gtin), last=now)
         kept = replace(fused(before, turned, self.looks), gtin=gtin)
-        return replace(self, seen=kept, looks=self.looks + 1, missed=0, last=now)
+        return Remembered(self.name, kept, self.looks + 1, last=now)
+
+    def _elsewhere(self, seen: SeenBox, now: float) -> "Remembered":
+        """A look shows it elsewhere: believed when the next one agrees with it."""
+        rival = self.rival
+        if rival is None or between(rival.shape, seen.shape).shift > MOVED:
+            return replace(self, missed=0, last=now, rival=seen)
+        there = Remembered(self.name, rival, last=now)
+        return there.again(seen, now)
 
     def _resized(self, seen: SeenBox) -> bool:
         """Whether a look has learned another size, and knows better: by the product's print."""
@@ -71,7 +86,7 @@ class Remembered:
 
     def unseen(self) -> "Remembered":
         """A look does not show it."""
-        return replace(self, missed=self.missed + 1)
+        return replace(self, missed=self.missed + 1, rival=None)
 
 
 def _agreed(before: SeenBox, seen: SeenBox) -> Gtin | None:

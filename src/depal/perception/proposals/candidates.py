@@ -1,7 +1,7 @@
 """All rectangles of a raster that may be faces, in the raster's own plane."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,11 @@ FEWEST = 0.3
 
 ALIKE = 0.010
 """Rectangles whose sides all lie so near to one another are the same [m]."""
+
+
+RATHER = 0.045
+FEW = 4
+"""Of rectangles whose sides lie so near to one another [m], only the few best are weighed."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,28 +88,30 @@ def placed(seams: Sequence[Seams], rectangles: Sequence[Rectangle]) -> Candidate
     Returns:
         The same rectangles in the same order, but for those that leave the raster.
     """
-    parts = []
-    for rectangle in rectangles:
-        turned = min(seams, key=lambda each: abs(each.turn - rectangle.turn))
-        way = turned.raster_from_turned
-        at = np.array([rectangle.u, rectangle.v]) / turned.step
-        middle = (at - way[:, 2]) @ way[:, :2]
-        half = np.array([rectangle.width, rectangle.height]) / turned.step / 2
-        sides = np.round(np.concatenate((middle - half, middle + half))).astype(np.int64)[None]
-        height, width = turned.level.shape
-        sides = np.clip(sides, 0, [width - 1, height - 1, width - 1, height - 1])
-        found = measured(turned, sides, *running(turned))
-        depth = found[0, 16] if np.isfinite(found[0, 16]) else rectangle.depth
-        values = [
-            rectangle.u,
-            rectangle.v,
-            rectangle.width,
-            rectangle.height,
-            rectangle.turn,
-            depth,
-        ]
-        parts.append(Candidates(np.array([values]), found))
-    return Candidates.joined(parts)
+    nearest = [
+        min(range(len(seams)), key=lambda k: abs(seams[k].turn - rectangle.turn))
+        for rectangle in rectangles
+    ]
+    values = np.array([astuple(rectangle) for rectangle in rectangles]).reshape(-1, 6)
+    measures = np.zeros((len(values), FEATURES))
+    for k, turned in enumerate(seams):
+        rows = np.flatnonzero(np.array(nearest) == k)
+        if rows.size:
+            measures[rows] = _measured_at(turned, values[rows])
+    known = np.isfinite(measures[:, 16])
+    values[known, 5] = measures[known, 16]
+    return Candidates(values, measures)
+
+
+def _measured_at(turned: Seams, values: Floats) -> Floats:
+    """What is measured of rectangles (n, 6), as they lie nearest in a turned raster."""
+    way, step = turned.raster_from_turned, turned.step
+    middles = (values[:, :2] / step - way[:, 2]) @ way[:, :2]
+    halves = values[:, 2:4] / step / 2
+    height, width = turned.level.shape
+    sides = np.round(np.hstack((middles - halves, middles + halves))).astype(np.int64)
+    limits = [width - 1, height - 1, width - 1, height - 1]
+    return measured(turned, np.clip(sides, 0, limits), *running(turned))
 
 
 def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp]:
@@ -124,7 +131,8 @@ def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp
     for index in order.tolist():
         if len(kept) == most:
             break
-        if kept and (np.abs(chosen[: len(kept)] - sides[index]).max(axis=1) <= ALIKE).any():
+        away = np.abs(chosen[: len(kept)] - sides[index]).max(axis=1)
+        if (away <= ALIKE).any() or (away <= RATHER).sum() >= FEW:
             continue
         chosen[len(kept)] = sides[index]
         kept.append(index)

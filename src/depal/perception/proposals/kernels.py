@@ -11,8 +11,17 @@ Floats = npt.NDArray[np.float64]
 Narrow = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int64]
 
-FEATURES = 20
+FEATURES = 21
 """So many numbers are measured of a rectangle; `sides`, `insides` and `surfaces` say which."""
+
+HIDES = 0.025
+"""What lies so far before a face hides it [m]."""
+
+FLAT = 0.008
+"""Depths with less spread about their plane are of one surface [m]."""
+
+STEEP = 0.15
+"""A face is no steeper against its raster [m/m]."""
 
 INSIDE = 0.1
 """Lines nearer to a side than this share of the whole are that side's own."""
@@ -143,6 +152,50 @@ def insides(rows: Floats, columns: Floats, rectangles: Ints, out: Floats) -> Non
         out[n, 19] = total / count if count else 0.0
 
 
+@loop_kernel
+def _plane(
+    depth: Narrow, rectangle: tuple[int, int, int, int], plane: Floats, hides: float, sums: Floats
+) -> float:
+    """Sums for the plane through a rectangle's depths, without what hides it.
+
+    Args:
+        depth: (h, w) [m]; nan where unknown.
+        rectangle: left, top, right, bottom [pixel].
+        plane: (3,) a plane so far: depth in the middle, slopes for each pixel; nan at first.
+        hides: what lies so far before the plane hides it [m].
+        sums: (11,) written: 0-8 sums; 9 places whose depth is known; 10 places that are hidden.
+
+    Returns:
+        How many places there are.
+    """
+    x0, y0, x1, y1 = rectangle
+    mx, my = (x0 + x1) / 2, (y0 + y1) / 2
+    places = 0.0
+    for k in range(11):
+        sums[k] = 0.0
+    for y in range(y0 + 2, y1 - 1, 5):
+        for x in range(x0 + 2, x1 - 1, 5):
+            places += 1.0
+            d = depth[y, x]
+            if math.isnan(d):
+                continue
+            dx, dy = x - mx, y - my
+            if plane[0] + plane[1] * dx + plane[2] * dy - d > hides:
+                sums[10] += 1.0
+                continue
+            sums[9] += 1.0
+            sums[0] += dx
+            sums[1] += dy
+            sums[2] += dx * dx
+            sums[3] += dx * dy
+            sums[4] += dy * dy
+            sums[5] += d
+            sums[6] += d * dx
+            sums[7] += d * dy
+            sums[8] += d * d
+    return places
+
+
 @kernel
 def surfaces(depth: Narrow, step: float, rectangles: Ints, out: Floats) -> None:
     """The depths inside and around rectangles.
@@ -151,45 +204,38 @@ def surfaces(depth: Narrow, step: float, rectangles: Ints, out: Floats) -> None:
         depth: (h, w) [m]; nan where unknown.
         step: of a pixel [m].
         rectangles: (n, 4) left, top, right, bottom [pixel].
-        out: (n, >= 19); written: 10 the share whose depth is known; 11 the spread about the
-            plane through them [m]; 12-15 how far the surface beyond each side lies behind the
-            plane [m], clipped, 0.2 where nothing is known; 16-18 the plane: depth in the middle
-            [m], slope along x and y.
+        out: (n, >= 21); written: 10 the share whose depth is known or hidden; 11 the spread about
+            the plane through what is not hidden [m]; 12-15 how far the surface beyond each side
+            lies behind the plane [m], clipped, 0.2 where nothing is known; 16-18 the plane: depth
+            in the middle [m], slope along x and y; 20 the share that something nearer hides.
     """
+    s, plane = np.zeros(11), np.zeros(3)
     for n in range(rectangles.shape[0]):
         x0, y0, x1, y1 = rectangles[n, 0], rectangles[n, 1], rectangles[n, 2], rectangles[n, 3]
-        mx, my = (x0 + x1) / 2, (y0 + y1) / 2
-        s = np.zeros(9)
-        seen, places = 0.0, 0.0
-        for y in range(y0 + 2, y1 - 1, 5):
-            for x in range(x0 + 2, x1 - 1, 5):
-                places += 1.0
-                d = depth[y, x]
-                if math.isnan(d):
-                    continue
-                seen += 1.0
-                dx, dy = x - mx, y - my
-                s[0] += dx
-                s[1] += dy
-                s[2] += dx * dx
-                s[3] += dx * dy
-                s[4] += dy * dy
-                s[5] += d
-                s[6] += d * dx
-                s[7] += d * dy
-                s[8] += d * d
-        out[n, 10] = seen / places if places else 0.0
         out[n, 11], out[n, 16], out[n, 17], out[n, 18] = 0.05, np.nan, 0.0, 0.0
-        if seen > 12:  # noqa: PLR2004
+        plane[0], plane[1], plane[2] = np.nan, 0.0, 0.0
+        places = 1.0
+        for _ in range(4):
+            places = max(_plane(depth, (x0, y0, x1, y1), plane, HIDES, s), 1.0)
+            seen = s[9]
+            if seen <= 12:  # noqa: PLR2004
+                break
             ax, ay, ad = s[0] / seen, s[1] / seen, s[5] / seen
             xx, xy, yy = s[2] / seen - ax * ax, s[3] / seen - ax * ay, s[4] / seen - ay * ay
             xd, yd, dd = s[6] / seen - ax * ad, s[7] / seen - ay * ad, s[8] / seen - ad * ad
             det = xx * yy - xy * xy
-            if det > 1e-6:  # noqa: PLR2004
-                a, b = (xd * yy - yd * xy) / det, (yd * xx - xd * xy) / det
-                out[n, 11] = math.sqrt(max(dd - a * xd - b * yd, 0.0))
-                out[n, 16] = ad - a * ax - b * ay
-                out[n, 17], out[n, 18] = a / step, b / step
+            if det <= 1e-6:  # noqa: PLR2004
+                break
+            a, b = (xd * yy - yd * xy) / det, (yd * xx - xd * xy) / det
+            out[n, 11] = math.sqrt(max(dd - a * xd - b * yd, 0.0))
+            plane[0], plane[1], plane[2] = ad - a * ax - b * ay, a, b
+            if out[n, 11] < FLAT:
+                break
+            if math.hypot(a, b) > STEEP * step:
+                # What is mixed with something nearer looks steep; its farther part is the face.
+                plane[0], plane[1], plane[2] = ad, 0.0, 0.0
+        out[n, 10], out[n, 20] = (s[9] + s[10]) / places, s[10] / places
+        out[n, 16], out[n, 17], out[n, 18] = plane[0], plane[1] / step, plane[2] / step
         for side in range(4):
             out[n, 12 + side] = _beyond(depth, (x0, y0, x1, y1), side, out[n, 16:19], step)
 

@@ -41,7 +41,7 @@ TINY = 8
 WIDEST = 1 << 14
 """No raster has so many pixels along an edge."""
 
-KEPT = 8_000
+KEPT = 3_500
 """So many rectangles of one direction go on to the score."""
 
 

@@ -11,8 +11,14 @@ Narrow = npt.NDArray[np.float32]
 DARKEST = 0.1
 """Added to values whose mean is one before their logarithm: dark pixels are mostly noise."""
 
+BLACK = 0.002
+"""Pixels that are darker in all colours were not photographed; their features are zero."""
+
 WIDE = 0.03
 """Brightness is compared with that around, averaged with a Gauss curve of this width [m]."""
+
+SHARP = 0.004
+"""Strokes of small letters are about as wide [m]."""
 
 AROUND = 0.05
 """The same for colours, where they are compared with those around [m]."""
@@ -52,6 +58,15 @@ class Features:
         values /= np.maximum(weights, np.float32(1e-3))[..., None]
         return Features(values, weights, self.step * every)
 
+    def sharpened(self, around: float = SHARP) -> "Features":
+        """Every feature less its mean around: strokes and edges stay, areas go.
+
+        Args:
+            around: the Gauss curve's width of the mean [m].
+        """
+        soft = cv2.GaussianBlur(self.values, (0, 0), around / self.step)
+        return Features(self.values - np.asarray(soft), self.weights, self.step)
+
     def flattened(self) -> "Features":
         """Every feature compared with that around it."""
         values = self.values * self.weights[..., None]
@@ -83,15 +98,15 @@ def features_of(
     values = colour.astype(np.float32)
     means = np.einsum("ijk,ij->k", values, mean_weights) / np.float32(total)
     values /= np.maximum(means, np.float32(1e-6))
-    values += np.float32(DARKEST)
-    red, green, blue = cv2.split(cv2.log(values))
+    red, green, blue = cv2.split(cv2.log(values + np.float32(DARKEST)))
     bright = np.asarray((red + green + blue) / np.float32(3.0), dtype=np.float32)
     bright -= _around(bright, mean_weights, WIDE / step)
     channels = (bright, red - green, blue - green)
     features = np.asarray(cv2.merge(channels), dtype=np.float32)
     offsets = np.einsum("ijk,ij->k", features, mean_weights) / np.float32(total)
     features -= offsets
-    features[weights <= 0.0] = 0.0
+    brightest = cv2.max(cv2.max(values[..., 0], values[..., 1]), values[..., 2])
+    features[np.asarray(brightest) <= BLACK] = 0.0
     return Features(features, weights, step)
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from depal.domain import Gtin
 from depal.perception.faces import Facing, Name
 from depal.perception.recognition.agreement import Agreement, agreement, cosine_of
+from depal.perception.recognition.details import reading
 from depal.perception.recognition.features import Features
 from depal.perception.recognition.patches import Patch
 from depal.perception.recognition.prints import COARSE, Gallery, Print
@@ -15,6 +16,7 @@ from depal.perception.recognition.registration import (
     found_at,
     registered,
 )
+from depal.perception.recognition.trust import evidence, shipped_trust
 
 SIZES = 0.018
 """Edges of a face are known so well [m]."""
@@ -41,23 +43,20 @@ class Limits:
 
     Attributes:
         cosine: of the whole face, at least.
-        worst: of the worst window, at most.
-        tone: difference of a window's brightness or colour, at most.
-        seen: share of the print's contrast that must be seen.
+        odds: that it is no unknown sibling, at least [logarithm]; None for the trained limit.
+        label_ends: where a label may reach farther down, as a share of the height, it may hide
+            what tells siblings apart.
         contrast: of a print that says enough: squared, over its area [m^2].
-        other: worst window of a rival that is excluded, at least.
-        times: the rival's worst window against the best one's, at least.
-        apart: a rival whose cosine is so far below is excluded too.
+        apart: a rival whose cosine is so far below is excluded.
+        less: so is one whose odds are so much lower [logarithm].
     """
 
-    cosine: float = 0.9
-    worst: float = 0.12
-    tone: float = 0.3
-    seen: float = 0.9
+    cosine: float = 0.5
+    odds: float | None = None
+    label_ends: float = 0.9
     contrast: float = 4e-4
-    other: float = 0.2
-    times: float = 2.5
-    apart: float = 0.15
+    apart: float = 0.2
+    less: float = 2.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,22 +83,18 @@ class Identity:
     Attributes:
         name: the best one.
         refined: where it says that the face is.
-        worst: how much the worst window differs from the print, 0 where nothing differs.
-        tone: the largest difference of a window's brightness or colour.
-        seen: share of the print's contrast that was seen.
+        odds: that it is no unknown sibling of that product [logarithm].
         rivals: products that the face does not exclude.
     """
 
     name: Name
     refined: Refinement
-    worst: float
-    tone: float
-    seen: float
+    odds: float
     rivals: tuple[Gtin, ...] = ()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _Fit:
+class Fit:
     """A print laid over a face."""
 
     printed: Print
@@ -107,6 +102,8 @@ class _Fit:
     coarse: float
     motion: Motion
     agreed: Agreement
+    seen: Features
+    level: int
 
 
 def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Identity | None:
@@ -121,18 +118,19 @@ def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Id
         The best name, certain or not; None where no print of this size resembles the face.
     """
     limits = limits or Limits()
-    fits = _fits(patch, gallery)
+    fits = laid_over_face(patch, gallery)
     if not fits:
         return None
     best = max(fits, key=lambda fit: fit.agreed.cosine - fit.agreed.worst)
     gtin = best.printed.product.gtin
+    odds = _odds(best)
     others = [fit for fit in fits if fit.printed.product.gtin != gtin]
-    rivals = tuple(fit.printed.product.gtin for fit in others if not _excluded(fit, best, limits))
-    certain = not rivals and _believed(best, limits)
+    close = [fit for fit in others if fit.agreed.cosine >= best.agreed.cosine - limits.apart]
+    rivals = tuple(fit.printed.product.gtin for fit in close if _odds(fit) > odds - limits.less)
+    certain = not rivals and _believed(best, odds, limits)
     score = min(max(best.agreed.cosine, 0.0), 1.0)
     name = Name(gtin, best.printed.side, score, certain, best.quarter)
-    worst, tone = best.agreed.worst, best.agreed.worst_tone
-    return Identity(name, _refined(best), worst, tone, best.agreed.seen, rivals)
+    return Identity(name, _refined(best), odds, rivals)
 
 
 def fitting(size: tuple[float, float], facing: Facing, gallery: Gallery) -> list[tuple[Print, int]]:
@@ -148,7 +146,7 @@ def fitting(size: tuple[float, float], facing: Facing, gallery: Gallery) -> list
     return found
 
 
-def _fits(patch: Patch, gallery: Gallery) -> list[_Fit]:
+def laid_over_face(patch: Patch, gallery: Gallery) -> list[Fit]:
     """The prints that resemble a face most, laid over it."""
     candidates = fitting(patch.size, patch.facing, gallery)
     if not candidates:
@@ -163,7 +161,7 @@ def _fits(patch: Patch, gallery: Gallery) -> list[_Fit]:
     firsts.sort(key=lambda first: -first[0])
     top = firsts[0][0]
     kept = [first for first in firsts if first[0] > max(LEAST, top - BEHIND)][:RIVALS]
-    fits, level, start = list[_Fit](), -1, dict[int, Motion]()
+    fits, level, start = list[Fit](), -1, dict[int, Motion]()
     for coarse, motion, printed, quarter in kept:
         begin = start.get(quarter, motion)
         fit, level = _laid(turned[quarter], printed, quarter, (coarse, begin), level)
@@ -174,7 +172,7 @@ def _fits(patch: Patch, gallery: Gallery) -> list[_Fit]:
 
 def _laid(
     seen: Features, printed: Print, quarter: int, first: tuple[float, Motion], level: int
-) -> tuple[_Fit, int]:
+) -> tuple[Fit, int]:
     """A print laid over a face, and the blur that suits both."""
     coarse, begin = first
     motion = registered(seen, printed.levels[max(level, 0)], begin, every=2)
@@ -183,30 +181,27 @@ def _laid(
         cosines = [cosine_of(back, features) for features in printed.levels]
         level = cosines.index(max(cosines))
     agreed = agreement(back, printed.levels[level])
-    return _Fit(printed, quarter, coarse, motion, agreed), level
+    return Fit(printed, quarter, coarse, motion, agreed, back, level), level
 
 
-def _excluded(rival: _Fit, best: _Fit, limits: Limits) -> bool:
-    """Whether a face cannot bear a rival's print, when it bears the best one's."""
-    if rival.agreed.cosine < best.agreed.cosine - limits.apart:
-        return True
-    worst = rival.agreed.worst
-    return worst > limits.other and worst > limits.times * best.agreed.worst
+def _odds(fit: Fit) -> float:
+    """That the print is not an unknown sibling's."""
+    printed = fit.printed
+    read = reading(fit.seen, printed.levels[fit.level], printed.small)
+    return shipped_trust().log_odds(evidence(fit.agreed, fit.level, read))
 
 
-def _believed(fit: _Fit, limits: Limits) -> bool:
+def _believed(fit: Fit, odds: float, limits: Limits) -> bool:
     """Whether a print agrees so well that it is no other product's, unknown siblings included."""
-    agreed = fit.agreed
     return (
-        agreed.cosine >= limits.cosine
-        and agreed.worst <= limits.worst
-        and agreed.worst_tone <= limits.tone
-        and agreed.seen >= limits.seen
+        fit.agreed.cosine >= limits.cosine
+        and odds >= (shipped_trust().limit if limits.odds is None else limits.odds)
         and fit.printed.contrast >= limits.contrast
+        and fit.printed.label_ends <= limits.label_ends
     )
 
 
-def _refined(fit: _Fit) -> Refinement:
+def _refined(fit: Fit) -> Refinement:
     """The place of a face by its print, along the face's own axes."""
     x, y = fit.motion.middle
     for _ in range(fit.quarter % 4):

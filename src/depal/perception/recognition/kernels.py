@@ -144,3 +144,29 @@ def moments(
                 cells[7] += w * a * a
                 cells[8] += w * b * b
                 cells[9] += w * a * b
+
+
+@loop_kernel
+def products(one: Narrow, other: Narrow, weights: Narrow, cell: int, out: Narrow) -> None:
+    """Sums over square cells of two pictures' products and squares.
+
+    Args:
+        one: (h, w, 3) features.
+        other: (h, w, 3) features.
+        weights: (h, w).
+        cell: edge of a cell [pixel].
+        out: (rows, columns, 3) products, squares of one, squares of the other. Overwritten.
+    """
+    out[:] = 0.0
+    rows, columns = out.shape[:2]
+    for row in range(rows * cell):
+        for column in range(columns * cell):
+            w = weights[row, column]
+            if w <= 0.0:
+                continue
+            cells = out[row // cell, column // cell]
+            for f in range(3):
+                a, b = one[row, column, f], other[row, column, f]
+                cells[0] += w * a * b
+                cells[1] += w * a * a
+                cells[2] += w * b * b

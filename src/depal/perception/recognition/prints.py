@@ -1,17 +1,22 @@
 """The prints that may come, made ready for comparing."""
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from depal.domain import DeliveryLine, Gtin, Product
 from depal.perception.faces import Facing
 from depal.perception.pictures import SIDES, Picture, PictureBook, side_size
+from depal.perception.recognition.details import small_print
 from depal.perception.recognition.features import Features, features_of
-from depal.perception.recognition.labels import without_label
+from depal.perception.recognition.labels import inside, label_ends, without_label
 from depal.perception.recognition.patches import FINE, SOFT
+
+Flags = npt.NDArray[np.bool_]
 
 BLURS = (0.0, 1.1, 2.0)
 """Pictures are kept as a near, a far and a farther camera sees them [mm], a Gauss curve's width."""
@@ -40,6 +45,8 @@ class Print:
         coarse: the same in pixels `COARSE` times as large.
         outline: the same in pixels `OUTLINE` times as large, its colours compared with those
             around as its brightness is.
+        small: where something small is printed.
+        label_ends: how far down its label may reach, as a share of its height.
         contrast: how much is printed: its squared features, summed over its area [m^2].
     """
 
@@ -49,6 +56,8 @@ class Print:
     middle: Features
     coarse: Features
     outline: Features
+    small: tuple[Flags, ...]
+    label_ends: float
     contrast: float
 
     @property
@@ -112,22 +121,39 @@ def print_of(product: Product, side: str, picture: Picture) -> Print:
     values, weights = levels[0].values, levels[0].weights
     contrast = float((values * values).sum(axis=2).ravel() @ weights.ravel()) * FINE**2
     middle, coarse = levels[1].thinned(2), levels[1].thinned(COARSE)
-    return Print(product, side, levels, middle, coarse, middle.thinned(3).flattened(), contrast)
+    outline = middle.thinned(OUTLINE // 2).flattened()
+    small = small_print(levels[0])
+    ends = 0.0 if side == "top" else label_ends(*side_size(product, side))
+    return Print(product, side, levels, middle, coarse, outline, small, ends, contrast)
 
 
 def _levels(picture: Picture, side: str) -> tuple[Features, ...]:
-    """A picture's features at every blur."""
-    height, width = (max(round(edge * MILLIMETRE / FINE), 8) for edge in picture.shape[:2])
-    weights = np.ones((height, width), dtype=np.float32)
+    """A picture's features at every blur.
+
+    The face lies in the middle of a grid whose rows and columns can be thinned without a rest.
+    """
+    high, wide = picture.shape[:2]
+    height, width = (
+        OUTLINE * math.ceil(edge * MILLIMETRE / FINE / OUTLINE) for edge in (high, wide)
+    )
+    size = (wide * MILLIMETRE, high * MILLIMETRE)
+    weights = inside((height, width), FINE, size, EDGE)
     if side != "top":
-        weights = without_label((height, width), FINE)
-    rim = round(EDGE / FINE)
-    weights[:rim] = weights[-rim:] = 0.0
-    weights[:, :rim] = weights[:, -rim:] = 0.0
+        weights *= without_label((height, width), FINE, size)
+    k = FINE / MILLIMETRE
+    warp = np.array(
+        [
+            [k, 0.0, (wide - 1) / 2 - k * (width - 1) / 2],
+            [0.0, k, (high - 1) / 2 - k * (height - 1) / 2],
+        ]
+    )
+    flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     levels = []
     for blur in BLURS:
-        width_of_blur = float(np.hypot(blur, SOFT * FINE / MILLIMETRE))
+        width_of_blur = float(np.hypot(blur, SOFT * k))
         soft = cv2.GaussianBlur(picture.astype(np.float32), (0, 0), width_of_blur)
-        small = cv2.resize(soft, (width, height), interpolation=cv2.INTER_AREA)
+        small = cv2.warpAffine(
+            soft, warp, (width, height), flags=flags, borderMode=cv2.BORDER_REPLICATE
+        )
         levels.append(features_of(np.asarray(small, dtype=np.float32), weights, FINE))
     return tuple(levels)

@@ -12,7 +12,7 @@ from depal.perception.recognition.kernels import normal_equations
 
 Floats = npt.NDArray[np.float64]
 
-PRIOR = (0.008, 0.008, math.radians(1.5), 0.007)
+PRIOR = (0.008, 0.008, math.radians(2.0), 0.007)
 """How far off a face's pose may be: x, y [m], turn [rad], scale; standard deviations."""
 
 OUTLIER = 0.35

@@ -18,6 +18,9 @@ NEAR = 0.03
 ALIKE = 0.03
 """Prints whose edges differ by less are as large [m]."""
 
+STEPS = 12
+"""A print is laid over its place in so many steps at the most: it may be turned by 4 degrees."""
+
 RIVALS = 8
 """So many prints are kept for one place."""
 
@@ -107,7 +110,7 @@ def _sighting(place: list[Peak], raster: Raster, fine: Features, step: float) ->
     u, v = best.column * step + middle, best.row * step + middle
     rectangle = Rectangle(u, v, width, height)
     seen = cut_out(fine, rectangle, FINE * 2).turned(-best.quarter)
-    motion = registered(seen, best.printed.middle, Motion(), every=2)
+    motion = registered(seen, best.printed.middle, Motion(), every=2, steps=STEPS)
     names = [_named(seen, peak, motion) for peak in place]
     names.sort(key=lambda name: -name.score)
     x, y = motion.middle

@@ -19,12 +19,14 @@ NAMES = (
     "level line inside",
     "clutter inside",
     "known",
+    "hidden",
     "spread",
     "slope",
     "sides with something behind",
     "sides with something before",
     "open sides' weakest",
     "misfit",
+    "misfit of one edge",
     "no sizes",
     "print",
     "printed",
@@ -64,12 +66,14 @@ def described(
         measured[:, 9] - sides[:, 1],
         measured[:, 19],
         measured[:, 10],
+        measured[:, 20],
         np.log(measured[:, 11] * 1000 + 0.3),
         np.minimum(np.hypot(measured[:, 17], measured[:, 18]), 1.0),
         behind.sum(axis=1),
         before.sum(axis=1),
         open_,
         misfits(sizes, expected),
+        edge_misfits(sizes, expected),
         np.full(len(sizes), 0.0 if len(expected) else 1.0),
         np.maximum(prints, 0.0),
         (prints >= 0.0).astype(float),
@@ -86,3 +90,11 @@ def misfits(sizes: Floats, expected: Sequence[tuple[float, float]]) -> Floats:
     known = np.array(expected, dtype=float)
     away = np.hypot(*(sizes[:, None, :] - known[None]).transpose(2, 0, 1)).min(axis=1)
     return np.asarray(np.minimum(away * 100, 4.0))
+
+
+def edge_misfits(sizes: Floats, expected: Sequence[tuple[float, float]]) -> Floats:
+    """(n,) the same of the better edge alone: the other may be hidden in part."""
+    if not len(expected):
+        return np.full(len(sizes), USUAL_MISFIT / 2)
+    away = np.abs(sizes[:, None, :] - np.array(expected, dtype=float)[None])
+    return np.asarray(np.minimum(away.min(axis=(1, 2)) * 100, 4.0))

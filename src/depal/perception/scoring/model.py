@@ -13,7 +13,7 @@ from depal.perception.scoring.features import NAMES
 
 Floats = npt.NDArray[np.float64]
 
-STEEPEST = 7.0
+STEEPEST = 20.0
 """Odds are never told with more certainty than this [logarithm]."""
 
 

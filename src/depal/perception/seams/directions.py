@@ -14,11 +14,11 @@ BIN = 0.5
 APART = 1.9
 """Directions that are searched differ by at least so much [degree]."""
 
-ENOUGH = 0.22
+ENOUGH = 0.3
 """A direction with this share of the strongest one's edges is searched too."""
 
-LONGEST = 0.012
-"""Gradients are taken over so much of a surface [m]."""
+SMOOTH = 0.0045
+"""Brightness is smoothed over so much of a surface, a Gauss curve's width [m]."""
 
 
 def directions_of(raster: Raster, most: int) -> tuple[float, ...]:
@@ -35,9 +35,9 @@ def directions_of(raster: Raster, most: int) -> tuple[float, ...]:
     """
     grey = np.asarray(cv2.cvtColor(raster.colour, cv2.COLOR_RGB2GRAY), dtype=np.float32)
     grey = np.log(grey + 8.0)
-    wide = max(LONGEST / raster.step / 4, 0.8)
+    wide = max(SMOOTH / raster.step, 0.8)
     grey = cv2.GaussianBlur(grey, (0, 0), wide)
-    gx, gy = cv2.Sobel(grey, -1, 1, 0), cv2.Sobel(grey, -1, 0, 1)
+    gx, gy = cv2.Scharr(grey, -1, 1, 0), cv2.Scharr(grey, -1, 0, 1)
     inside = cv2.erode(raster.known.astype(np.uint8), np.ones((5, 5), dtype=np.uint8)) > 0
     strength = np.where(inside, np.hypot(gx, gy), 0.0)
     if not inside.any() or strength.max() <= 0.0:

@@ -129,7 +129,9 @@ def calibrated(made: Scene) -> tuple[Frame, ...]:
 
 def calibrations(made: Scene) -> tuple[Calibration, ...]:
     """What the cell's markers tell of each camera."""
-    return tuple(calibrate([frame], made.layout.fiducials) for frame in made.frames)
+    return tuple(
+        calibrate([frame], made.layout.fiducials, made.layout.fixtures) for frame in made.frames
+    )
 
 
 def after_a_pick(made: Scene) -> tuple[Frame, ...]:

@@ -20,6 +20,7 @@ from depal.perception.scoring import described
 from depal.perception.seams import directions_of, seams_of
 from depal.ports import Frame
 from depal.simulation.scenes import Kind, Scene, Severity, TrueFace, scene
+from depal.studies.perception.polygons import agreement
 
 Floats = npt.NDArray[np.float64]
 Prints = Callable[[Raster, Scene, np.random.Generator], Sequence[Printed]]
@@ -27,6 +28,13 @@ Prints = Callable[[Raster, Scene, np.random.Generator], Sequence[Printed]]
 RIGHT, WRONG = 0.85, 0.72
 """A rectangle is a face where it covers one so well (intersection over union), and none where it
 covers none even so well; what lies between teaches nothing."""
+
+NEAR = 0.4
+"""Of a face whose middle is farther off than this share of a rectangle's shorter side, the
+rectangle covers too little."""
+
+BEHIND = 0.06
+"""A face that lies so far behind a rectangle, or before it, is another one [m]."""
 
 SEEN = 0.5
 """Of a face that teaches so much is visible."""
@@ -93,7 +101,10 @@ def examples_of(
     severity = Severity.HARD if random.random() < HARD else Severity.NORMAL
     kind = tuple(Kind)[int(random.integers(len(Kind)))]
     made = scene(delivery, layout, seed, severity, kind, foreign=FOREIGN)
-    frames = [calibrate([frame], layout.fiducials).applied(frame) for frame in made.frames]
+    frames = [
+        calibrate([frame], layout.fiducials, layout.fixtures).applied(frame)
+        for frame in made.frames
+    ]
     coarse = random.random() < COARSE
     if coarse:
         frames = [coarser(frame, random) for frame in frames]
@@ -181,17 +192,17 @@ def coverage(
     """
     raster_from_cell = raster.cell_from_raster.inverse
     turn, shift = np.array(raster_from_cell.rotation), np.array(raster_from_cell.translation)
-    outlines = [(face.corners @ turn.T + shift)[:, :2].astype(np.float32) for face in faces]
+    places = [face.corners @ turn.T + shift for face in faces]
+    outlines = [place[:, :2] for place in places]
+    depths = np.array([place[:, 2].mean() for place in places])
     middles = np.array([outline.mean(axis=0) for outline in outlines]).reshape(-1, 2)
     covered, seen = np.zeros(len(candidates)), np.zeros(len(candidates))
     for row, rectangle in enumerate(candidates.rectangles):
-        corners = rectangle.corners.astype(np.float32)
-        reach = (rectangle.width + rectangle.height) / 3
-        near = np.abs(middles - (rectangle.u, rectangle.v)).max(axis=1, initial=0.0) < reach
-        for index in np.flatnonzero(near):
-            shared, _ = cv2.intersectConvexConvex(corners, outlines[index])
-            whole = rectangle.width * rectangle.height + cv2.contourArea(outlines[index])
-            share = shared / (whole - shared)
+        reach = NEAR * min(rectangle.width, rectangle.height)
+        away = np.abs(middles - (rectangle.u, rectangle.v)).max(axis=1, initial=0.0)
+        near = (away < reach) & (np.abs(depths - rectangle.depth) < BEHIND)
+        for index in np.flatnonzero(near).tolist():
+            share = agreement(rectangle.corners, outlines[index])
             if share > covered[row]:
-                covered[row], seen[row] = share, faces[int(index)].visible
+                covered[row], seen[row] = share, faces[index].visible
     return covered, seen
