@@ -7,18 +7,19 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from depal.perception.faces import Errors, Face, Facing
+from depal.perception.faces import Errors, Face, Facing, Name
 from depal.perception.recognition import Gallery, identify
 from depal.perception.recognition.identity import Identity
 from depal.perception.recognition.patches import Patch
+from depal.perception.recognition.prints import Print
 from depal.perception.recognition.rectifying import best_view, rectified
-from depal.perception.refining import Belief, by_depths, by_print, by_sides, moved
+from depal.perception.refining import Belief, Sides, by_depths, by_print, moved
 from depal.perception.refining.belief import DEPTH, HEIGHT, SWING, TURN, WIDTH, U, V
 from depal.ports import Frame
 
 Floats = npt.NDArray[np.float64]
 
-SNAP = 0.018
+SNAP = 0.022
 """A face whose edges differ from an expected size by less has that size [m]."""
 
 FOUND = (0.008, 0.008, 0.02)
@@ -37,6 +38,13 @@ RESEMBLES = 0.6
 """A print that agrees less well says nothing about where its face is."""
 
 
+RIGHT = 0.93
+"""A print that agrees better is of the right product, or of one that is as large."""
+
+ASKEW = math.radians(2.0)
+"""A print that agrees less may be turned by so much against where it was found [rad]."""
+
+
 def located(
     face: Face,
     frames: Sequence[Frame],
@@ -51,12 +59,12 @@ def located(
         sizes: widths and heights of the faces that may look this way [m]; none where nobody knows.
         gallery: the prints that may come; None where there are no pictures.
     """
-    size = _nearest(face.size, sizes)
-    face = face if size is None else replace(face, size=size)
     view = best_view(frames, face.cell_from_face)
     if view is None:
         return face
-    belief = _found(face.facing, known=size is not None)
+    near = [each for each in sizes if _apart(each, face.size) < SNAP]
+    near += _size_of(face.name, gallery)
+    belief = _found(face.facing, known=bool(near))
     depths = by_depths(frames[view], face.cell_from_face, face.size)
     if depths is not None:
         belief += depths[0]
@@ -64,16 +72,83 @@ def located(
     patch = rectified(frames, face.facing, face.cell_from_face, face.size)
     if patch is None:
         return face
+    face, belief, patch = _rough(face, belief, patch, frames, near)
     identity = identify(patch, gallery) if gallery is not None else None
     if identity is not None and gallery is not None:
         face = replace(face, name=identity.name)
-        belief += _printed(patch, identity, gallery, belief)
-    belief += by_sides(patch, belief)
+        if identity.name.score > RESEMBLES:
+            face, belief, patch = _by_print(face, belief, patch, frames, identity, gallery)
+    belief += Sides.of(patch).told(belief)
     face, belief = _moved(face, belief)
     sway = np.zeros(7)
     if depths is not None:
         sway = belief.covariance @ (depths[0].information[:, DEPTH] * depths[1])
     return replace(face, errors=_errors(face.facing, belief.covariance, sway, view))
+
+
+def _rough(
+    face: Face,
+    belief: Belief,
+    patch: Patch,
+    frames: Sequence[Frame],
+    sizes: Sequence[tuple[float, float]],
+) -> tuple[Face, Belief, Patch]:
+    """The face where its edges say that it is, as large as they say; so its print is found."""
+    sides, more = Sides.of(patch), np.zeros(2)
+    if sizes:
+        every = np.array(sizes) - face.size
+        best = sides.grown(belief, every)
+        more, face = every[best], replace(face, size=sizes[best])
+    grown = np.array([0.0, 0.0, 0.0, 0.0, 0.0, *more])
+    step = (belief + sides.told(belief.from_there(-grown))).mean
+    step[[WIDTH, HEIGHT]] = 0.0
+    there = replace(face, cell_from_face=moved(face.cell_from_face, step))
+    return there, belief.from_there(step), _patch(there, frames, patch)
+
+
+def _by_print(
+    face: Face,
+    belief: Belief,
+    patch: Patch,
+    frames: Sequence[Frame],
+    identity: Identity,
+    gallery: Gallery,
+) -> tuple[Face, Belief, Patch]:
+    """The face as large as its product, and what its print says of its place."""
+    name, start = identity.name, identity.refined
+    printed, (size,) = _print_of(name, gallery), _size_of(name, gallery)
+    if _apart(size, face.size) > CUT:
+        if name.score < RIGHT:
+            return face, belief, patch
+        face = replace(face, size=size)
+        patch = _patch(face, frames, patch)
+    print_ = printed.levels[1].turned(name.quarter)
+    belief += Belief.around((*(np.inf,) * 5, CUT, CUT))
+    if patch.eye is not None:
+        turns = (0.0,) if name.score > RIGHT else (0.0, -ASKEW, ASKEW)
+        starts = [(start.du, start.dv, start.turn + turn) for turn in turns]
+        belief += by_print(patch.features, print_, patch.eye, belief, starts)
+    return face, belief, patch
+
+
+def _print_of(name: Name, gallery: Gallery) -> Print:
+    """The print that says a name."""
+    return next(
+        each for each in gallery.prints if each.product.gtin == name.gtin and each.side == name.side
+    )
+
+
+def _size_of(name: Name | None, gallery: Gallery | None) -> list[tuple[float, float]]:
+    """Width and height of a face with a name [m], where it has one."""
+    if name is None or gallery is None:
+        return []
+    width, height = _print_of(name, gallery).size
+    return [(width, height) if name.quarter % 2 == 0 else (height, width)]
+
+
+def _patch(face: Face, frames: Sequence[Frame], before: Patch) -> Patch:
+    """The face laid flat; as before, where no camera shows it any more."""
+    return rectified(frames, face.facing, face.cell_from_face, face.size) or before
 
 
 def _found(facing: Facing, *, known: bool) -> Belief:
@@ -92,19 +167,6 @@ def _moved(face: Face, belief: Belief) -> tuple[Face, Belief]:
     return there, belief.from_there(step)
 
 
-def _printed(patch: Patch, identity: Identity, gallery: Gallery, belief: Belief) -> Belief:
-    """What the print says, where it is the right one."""
-    name, start = identity.name, identity.refined
-    printed = next(
-        each for each in gallery.prints if each.product.gtin == name.gtin and each.side == name.side
-    )
-    if patch.eye is None or name.score < RESEMBLES:
-        return Belief(np.zeros((7, 7)), np.zeros(7))
-    print_ = printed.levels[1].turned(name.quarter)
-    begin = (start.du, start.dv, start.turn)
-    return by_print(patch.features, print_, patch.eye, belief, begin)
-
-
 def _errors(facing: Facing, covariance: Floats, sway: Floats, view: int) -> Errors:
     """Of the four numbers that place a face."""
     chosen = [U, V, DEPTH, SWING if facing is Facing.FRONT else TURN]
@@ -113,12 +175,6 @@ def _errors(facing: Facing, covariance: Floats, sway: Floats, view: int) -> Erro
     return Errors(rows, view, tuple(sway[chosen].tolist()))
 
 
-def _nearest(
-    size: tuple[float, float], sizes: Sequence[tuple[float, float]]
-) -> tuple[float, float] | None:
-    """The expected size that a face has; None where none is near."""
-    if not sizes:
-        return None
-    away = np.abs(np.array(sizes) - size).max(axis=1)
-    best = int(away.argmin())
-    return sizes[best] if away[best] < SNAP else None
+def _apart(size: tuple[float, float], other: tuple[float, float]) -> float:
+    """By how much two sizes differ [m]."""
+    return max(abs(a - b) for a, b in zip(size, other, strict=True))

@@ -100,8 +100,7 @@ def _draft(part: _Part, region_from_cell: Pose) -> Draft:
         Place(each.face, region_from_cell @ each.face.cell_from_face, each.yaw)
         for each in part.lying
     )
-    stands = part.front is not None or size.certain
-    return Draft(places, (size.depth, size.width, size.height), stands)
+    return Draft(places, (size.depth, size.width, size.height), size.tall)
 
 
 def _box(part: _Part, draft: Draft, region: Region, state: Floats, covariance: Floats) -> SeenBox:
@@ -158,6 +157,6 @@ def _covariance(part: _Part, cell_from_region: Pose, block: Floats) -> Floats:
     own[3, 3] = own[4, 4] = UPRIGHT**2
     if not part.size.certain:
         own[0, 0] += 0.0 if part.top else (GUESSED / 2) ** 2
-        own[2, 2] += 0.0 if part.front else (GUESSED / 2) ** 2
+        own[2, 2] += 0.0 if part.size.tall else (GUESSED / 2) ** 2
     turn = np.kron(np.eye(2), np.array(cell_from_region.rotation))
     return np.asarray(turn @ own @ turn.T)

@@ -11,6 +11,9 @@ from depal.geometry import Vector3
 FITS = 0.022
 """A face fits a product whose edges differ by less, both together [m]."""
 
+EQUAL = 0.008
+"""Sizes that differ by less are one [m]."""
+
 CLEARLY = 0.012
 """A product is meant where it fits better than any other of another size by so much [m]."""
 
@@ -24,6 +27,7 @@ class Sized:
         width: along y [m].
         height: along z [m].
         certain: whether all three are known.
+        tall: whether the height is.
         gtins: the products that have this size.
     """
 
@@ -31,6 +35,7 @@ class Sized:
     width: float
     height: float
     certain: bool
+    tall: bool
     gtins: frozenset[Gtin] = frozenset()
 
 
@@ -79,10 +84,11 @@ def sized(
         fitting.sort(key=lambda each: each[0] + min(abs(each[1][2] - high) for high in standing))
     best = fitting[0][1]
     near = [each for each in fitting if each[0] < fitting[0][0] + CLEARLY]
-    same = [each for each in near if np.allclose(each[1], best, atol=0.006)]
-    other = [each for each in near if each not in same]
-    certain = not other or (seen.depth is not None and seen.height is not None)
-    return Sized(*best, certain, frozenset(each[2] for each in same))
+    same = [each for each in near if np.allclose(each[1], best, atol=EQUAL)]
+    certain = len(same) == len(near) or (seen.depth is not None and seen.height is not None)
+    tall = certain or seen.height is not None
+    tall = tall or all(abs(each[1][2] - best[2]) < EQUAL for each in near)
+    return Sized(*best, certain, tall, frozenset(each[2] for each in same))
 
 
 def _ways(size: Vector3) -> list[Vector3]:
@@ -103,4 +109,5 @@ def _as_seen(seen: Seen, standing: Sequence[float]) -> Sized:
     height = seen.height
     if height is None:
         height = min(standing, default=usual, key=lambda high: abs(high - usual))
-    return Sized(depth, seen.width, height, seen.depth is not None and seen.height is not None)
+    tall = seen.height is not None
+    return Sized(depth, seen.width, height, seen.depth is not None and tall, tall)

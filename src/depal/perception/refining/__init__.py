@@ -3,6 +3,6 @@
 from depal.perception.refining.belief import Belief, moved
 from depal.perception.refining.depths import by_depths
 from depal.perception.refining.printed import by_print
-from depal.perception.refining.sides import by_sides
+from depal.perception.refining.sides import Sides
 
-__all__ = ["Belief", "by_depths", "by_print", "by_sides", "moved"]
+__all__ = ["Belief", "Sides", "by_depths", "by_print", "moved"]

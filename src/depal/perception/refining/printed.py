@@ -1,6 +1,7 @@
 """Where a face is by its print: every point of the print tells where it is seen."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -44,7 +45,7 @@ def by_print(
     printed: Features,
     eye: tuple[float, float, float],
     before: Belief,
-    start: tuple[float, float, float],
+    starts: Sequence[tuple[float, float, float]],
 ) -> Belief:
     """What a print says about where its face is.
 
@@ -53,22 +54,36 @@ def by_print(
         printed: features of the print as it would be seen.
         eye: of the camera, in the face's frame [m].
         before: what is believed of the face.
-        start: how far the print lies from there, roughly: along u, v [m] and its turn [rad].
+        starts: how far the print may lie from there, roughly: along u, v [m] and its turn [rad];
+            the one from which it agrees best in the end is taken.
 
     Returns:
         What the print alone says.
     """
+    tried = [_laid(seen, printed, eye, before, start) for start in starts]
+    _, normal, state = min(tried, key=lambda each: each[0])
+    return _of_print(normal, state, eye)
+
+
+def _laid(
+    seen: Features,
+    printed: Features,
+    eye: tuple[float, float, float],
+    before: Belief,
+    start: tuple[float, float, float],
+) -> tuple[float, Floats, Floats]:
+    """How badly a print agrees when it is laid over a face, the information of that, and where."""
     free = slice(0, TURN + 1)
-    spread = before.covariance[free, free]
-    prior, mean = np.linalg.inv(spread), before.mean[free]
+    prior, mean = np.linalg.inv(before.covariance[free, free]), before.mean[free]
     view = np.array([*eye, seen.step, OUTLIER, EVERY])
     state = np.zeros(8)
     state[free] = mean
     state[[U, V, TURN]] = start
     room, normal, right = np.zeros((3, 6)), np.zeros((8, 8)), np.zeros(8)
     views = (seen.values, seen.weights, printed.values, printed.weights)
+    square, weight = 0.0, 1.0
     for _ in range(STEPS):
-        square = kernels.laid_over(*views, view, state, room, normal, right)
+        square = float(kernels.laid_over(*views, view, state, room, normal, right))
         weight = 1.0 / (ALIKE * max(NOISE**2, square / 3))
         both, pull = normal * weight, right * weight
         both[free, free] += prior
@@ -78,7 +93,7 @@ def by_print(
         state += change
         if np.abs(change[free]).max() < STILL:
             break
-    return _of_print(normal * weight, state, eye)
+    return square, normal * weight, state
 
 
 def _of_print(normal: Floats, state: Floats, eye: tuple[float, float, float]) -> Belief:

@@ -1,7 +1,8 @@
 """Lays the four sides of a face onto the edges that a patch shows, each by itself."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import cv2
 import numpy as np
@@ -9,7 +10,7 @@ import numpy.typing as npt
 
 from depal.perception.recognition.patches import Patch
 from depal.perception.refining import kernels
-from depal.perception.refining.belief import HEIGHT, STATES, WIDTH, Belief, flow, told
+from depal.perception.refining.belief import HEIGHT, STATES, TURN, WIDTH, Belief, flow, told
 
 Floats = npt.NDArray[np.float64]
 Narrow = npt.NDArray[np.float32]
@@ -26,12 +27,15 @@ LIKELY = 0.002
 NEAR = 0.002
 """A side is so near to where it and its opposite agree best, as a standard deviation [m]."""
 
-SLANT = math.radians(2.5)
-SLANTS = 21
+SLANT = math.radians(3.5)
+SLANTS = 29
 """So many turns within plus and minus that are tried [rad]."""
 
-USUAL = math.radians(0.5)
+USUAL = math.radians(0.3)
 """Beside what is believed of it, a side is turned by so much, as a standard deviation [rad]."""
+
+SEEMED = 0.005
+"""A face's width and height, as found on a raster, are off by so much [m]."""
 
 NOISE = 0.012
 """Steps of log brightness or colour along a whole side that mean nothing."""
@@ -58,38 +62,85 @@ class Side:
     clear: float
 
 
-def by_sides(patch: Patch, before: Belief) -> Belief:
-    """What the edges say about where a face is.
+@dataclass(frozen=True, slots=True, eq=False)
+class Sides:
+    """What lies along the four sides of a face.
 
-    Args:
-        patch: the face, laid flat, with a margin; seen by a camera.
-        before: what is believed of it.
+    Attributes:
+        strengths: of the left, upper, right and lower side: (slants, across) how much an edge
+            stands out there.
+        rows: (8, 7) how the sides' places, then their slants, change with the face's errors.
+        step: between places across [m].
     """
-    rows = rows_of(patch)
-    spread = before.covariance
-    expected, variances = rows @ before.mean, np.einsum("ij,jk,ik->i", rows, spread, rows)
-    sigma = np.sqrt(np.maximum(variances, 0.0))
-    tones, slants = _tones(patch), np.linspace(-SLANT, SLANT, SLANTS)
-    lying = [
-        Lying(
-            _strengths(*_strip(tones, patch, k), slants),
-            patch.step,
-            (float(expected[k]), float(sigma[k])),
-            (float(expected[k + 4]), math.hypot(float(sigma[k + 4]), USUAL)),
-        )
-        for k in range(4)
-    ]
-    values, sigmas = np.zeros(8), np.zeros(8)
-    for first, last in ((0, 2), (1, 3)):
-        between = rows[first] - rows[last]
-        apart = math.sqrt(max(float(between @ spread @ between), 0.0))
-        shift = _agreed(lying[first], lying[last], apart)
-        for k in (first, last):
-            side = lying[k].found(shift, apart)
-            values[k], values[k + 4] = side.away, side.slant
-            sigmas[k] = VAGUE + (EXACT - VAGUE) * side.clear
-            sigmas[k + 4] = BENT + (STRAIGHT - BENT) * side.clear
-    return told(rows, values, sigmas)
+
+    strengths: tuple[Floats, ...]
+    rows: Floats
+    step: float
+
+    @classmethod
+    def of(cls, patch: Patch) -> Self:
+        """Of a face that is laid flat, with a margin, seen by a camera."""
+        tones, slants = _tones(patch), np.linspace(-SLANT, SLANT, SLANTS)
+        strengths = tuple(_strengths(*_strip(tones, patch, k), slants) for k in range(4))
+        return cls(strengths, rows_of(patch), patch.step)
+
+    def told(self, before: Belief) -> Belief:
+        """What the edges say about where a face is, of which something is believed."""
+        lying, spread = self._turned(before), before.covariance
+        values, sigmas = np.zeros(8), np.zeros(8)
+        for first, last in ((0, 2), (1, 3)):
+            between = self.rows[first] - self.rows[last]
+            apart = math.sqrt(max(float(between @ spread @ between), 0.0))
+            shift, _ = _agreed(lying[first], lying[last], apart)
+            for k in (first, last):
+                side = lying[k].found(shift, apart)
+                values[k], values[k + 4] = side.away, side.slant
+                sigmas[k] = VAGUE + (EXACT - VAGUE) * side.clear
+                sigmas[k + 4] = BENT + (STRAIGHT - BENT) * side.clear
+        return told(self.rows, values, sigmas)
+
+    def grown(self, before: Belief, sizes: Floats) -> int:
+        """Which of several sizes the edges suit best.
+
+        Args:
+            before: what is believed of the face.
+            sizes: (n, 2) by how much wider and higher than thought [m].
+
+        Returns:
+            The index.
+        """
+        lying = self._turned(before)
+        totals = -0.5 * ((sizes / SEEMED) ** 2).sum(axis=1)
+        for axis, (first, last) in enumerate(((0, 2), (1, 3))):
+            for n, more in enumerate((sizes[:, axis] / 2).tolist()):
+                one, two = lying[first].shifted(-more), lying[last].shifted(more)
+                totals[n] += _agreed(one, two, 0.0)[1]
+        return int(totals.argmax())
+
+    def _turned(self, before: Belief) -> list["Lying"]:
+        """The sides, turned so that all four stand out most."""
+        expected, spread = self.rows @ before.mean, before.covariance
+        sigma = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", self.rows, spread, self.rows), 0.0))
+        turned = math.sqrt(float(spread[TURN, TURN]))
+        still = np.sqrt(np.maximum(sigma[4:] ** 2 - (self.rows[4:, TURN] * turned) ** 2, 0.0))
+        lying = [
+            Lying(
+                strength,
+                self.step,
+                (float(expected[k]), float(sigma[k])),
+                (float(expected[k + 4]), math.hypot(float(still[k]), USUAL)),
+            )
+            for k, strength in enumerate(self.strengths)
+        ]
+        turns = np.linspace(-SLANT, SLANT, SLANTS)
+        total = -0.5 * (turns / turned) ** 2
+        for side, way in zip(lying, self.rows[4:, TURN], strict=True):
+            total = total + np.interp(side.slant[0] + way * turns, turns, side.standing)
+        turn = float(turns[int(total.argmax())])
+        return [
+            replace(side, slant=(side.slant[0] + float(way) * turn, side.slant[1]))
+            for side, way in zip(lying, self.rows[4:, TURN], strict=True)
+        ]
 
 
 def rows_of(patch: Patch) -> Floats:
@@ -146,9 +197,20 @@ class Lying:
         return np.asarray(self.strength * np.exp(-0.5 * ((slants - mean) / sigma) ** 2)[:, None])
 
     @property
+    def standing(self) -> Floats:
+        """(slants,) how much speaks for each slant."""
+        mean, sigma = self.place
+        likely = np.exp(-0.5 * ((self.away - mean) / math.hypot(sigma, LIKELY)) ** 2)
+        return np.asarray(np.log1p((self.strength * likely).max(axis=1) / NOISE))
+
+    @property
     def profile(self) -> Floats:
         """(across,) how much speaks for each place."""
         return np.asarray(np.log1p(self._weighted.max(axis=0) / NOISE))
+
+    def shifted(self, more: float) -> "Lying":
+        """The same side where it is likely to be farther towards + u or + v [m]."""
+        return replace(self, place=(self.place[0] + more, self.place[1]))
 
     def found(self, shift: float, apart: float) -> Side:
         """Where it stands out most.
@@ -170,10 +232,13 @@ class Lying:
         )
 
 
-def _agreed(first: Lying, last: Lying, apart: float) -> float:
-    """By how much two opposite sides are off, both alike, from where they are likely to be [m].
+def _agreed(first: Lying, last: Lying, apart: float) -> tuple[float, float]:
+    """By how much two opposite sides are off, both alike, from where they are likely to be.
 
     Beside a box there is often a gap, or a neighbour's print: only one place suits both sides.
+
+    Returns:
+        How much [m], and the logarithm of how much speaks for it.
     """
     sigma = math.hypot(min(first.place[1], last.place[1]), LIKELY)
     shifts = np.linspace(-REACH, REACH, SHIFTS)
@@ -182,7 +247,8 @@ def _agreed(first: Lying, last: Lying, apart: float) -> float:
     for side in (first, last):
         profile = np.asarray(cv2.GaussianBlur(side.profile[None, :], (0, 0), wide))[0]
         total = total + np.interp(shifts + side.place[0], side.away, profile)
-    return float(shifts[int(total.argmax())])
+    best = int(total.argmax())
+    return float(shifts[best]), float(total[best])
 
 
 def _tones(patch: Patch) -> Narrow:

@@ -22,9 +22,6 @@ ROUNDS = 4
 SCALE = 0.003
 """A camera's depths are too long by this share, as a standard deviation."""
 
-CONTACT = 0.0015
-"""A box's bottom and what carries it meet so exactly, as a standard deviation [m]."""
-
 OUTLYING = 3.0
 """A face that is off by more of its own standard deviations counts less."""
 
@@ -125,7 +122,7 @@ def _spread(states: Floats, covariance: Floats) -> float:
 
 def _carried(normal: Floats, pull: Floats, contact: Contact) -> None:
     """Adds that a box stands on something."""
-    weight = CONTACT**-2
+    weight = contact.sigma**-2
     upper = 4 * contact.upper + Z
     columns, row = [upper], np.array([1.0])
     if contact.lower is not None:
