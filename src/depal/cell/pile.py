@@ -1,7 +1,7 @@
 """What the cell believes stands on the pallet: all looks together, and what one may have missed."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -147,7 +147,9 @@ class Pile:
     def boxes(self) -> tuple[Perceived, ...]:
         """What stands there, by name; level and square where it seems so."""
         known = [self._known(self._boxes[name]) for name in sorted(self._boxes)]
-        return tuple(known) if self._deck is None else settled(known, self._deck)
+        if self._deck is None:
+            return tuple(known)
+        return settled(known, self._deck, self.unsized)
 
     def get(self, box: BoxId) -> Perceived | None:
         """A box by its name."""
@@ -181,12 +183,15 @@ def _perceived(box: Remembered, last: Perceived | None) -> Perceived:
     return Detection(box.name, box.seen.shape)
 
 
-def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
+def settled(
+    boxes: Iterable[Perceived], deck: Deck, unsized: Collection[BoxId] = ()
+) -> tuple[Perceived, ...]:
     """Boxes as they can stand: square to the pallet, and on what carries them, where it is near.
 
     Args:
         boxes: upright, in the cell frame.
         deck: what the lowest stand on.
+        unsized: boxes of which an edge is a guess: their faces stay where they were seen.
 
     Returns:
         The same boxes in the same order.
@@ -199,7 +204,9 @@ def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
         off = _yaw(box.shape) - deck.yaw
         away = off - quarter * round(off / quarter)
         yaw = _yaw(box.shape) - (away if abs(away) < SQUARE else 0.0)
-        bottom = _carried(box.shape, [other.shape for other in done.values()], deck)
+        bottom = _bottom(box.shape)
+        if box.id not in unsized:
+            bottom = _carried(box.shape, [other.shape for other in done.values()], deck)
         x, y, _ = centre
         pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
         done[box.id] = replace(box, shape=OrientedBox(pose, size))
