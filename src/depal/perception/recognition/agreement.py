@@ -73,13 +73,14 @@ def agreement(seen: Features, printed: Features) -> Agreement:
     weight = windows[..., 0]
     windows = windows / np.maximum(weight, np.float32(1e-3))[..., None]
     a, b = windows[..., 1:4], windows[..., 4:7]
-    own = windows[..., 7] - (a * a).sum(axis=2)
-    others = windows[..., 8] - (b * b).sum(axis=2)
+    own = windows[..., 7] - np.einsum("ijk,ijk->ij", a, a)
+    others = windows[..., 8] - np.einsum("ijk,ijk->ij", b, b)
     both = np.sqrt(np.maximum(own * others, 0.0))
-    shared = windows[..., 9] - (a * b).sum(axis=2)
+    shared = windows[..., 9] - np.einsum("ijk,ijk->ij", a, b)
     differing = 1.0 - (shared + FAINT) / (both + FAINT)
-    tone = np.abs(a - b - (mean_a - mean_b).astype(np.float32)).max(axis=2)
-    squares = (printed.values * printed.values).sum(axis=2) * printed.weights
+    off = np.abs(a - b - (mean_a - mean_b).astype(np.float32))
+    tone = np.maximum(np.maximum(off[..., 0], off[..., 1]), off[..., 2])
+    squares = np.einsum("ijk,ijk->ij", printed.values, printed.values) * printed.weights
     share = float((squares * seen.weights).sum()) / max(float(squares.sum()), 1e-9)
     return Agreement(cosine, differing, tone, weight > SEEN * (n * CELL) ** 2, share)
 

@@ -105,7 +105,8 @@ def features_of(
     features = np.asarray(cv2.merge(channels), dtype=np.float32)
     offsets = np.einsum("ijk,ij->k", features, mean_weights) / np.float32(total)
     features -= offsets
-    features[values.max(axis=2) <= BLACK] = 0.0
+    brightest = cv2.max(cv2.max(values[..., 0], values[..., 1]), values[..., 2])
+    features[np.asarray(brightest) <= BLACK] = 0.0
     return Features(features, weights, step)
 
 
