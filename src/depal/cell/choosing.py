@@ -17,14 +17,19 @@ class Choice:
     Attributes:
         decision: with every reason.
         plans: how many motions were planned for it.
+        doubts: what speaks against the chosen box, where nothing better was free.
     """
 
     decision: Decision[PickPlan]
     plans: int
+    doubts: str | None = None
 
 
 def choose(work: Workplace, desk: Desk) -> Choice:
     """One call of BOXSELECTION (section II-C) over what stands on the pallet.
+
+    What there are doubts about stays where it is as long as anything else can be taken: what goes
+    first bares more of it.
 
     Args:
         work: the pile, the requests, the settings.
@@ -34,17 +39,27 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         The choice; its grasp is a planned pick.
     """
     graph = BlockingGraph(work.pile.boxes)
+    wishes, rule = work.wishes.open(work.now), rule_of(work)
     before = desk.planner.planned
+    waiting: set[BoxId] = set()
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
         reason = why_left(work, box)
         if reason is not None:
             return Refused(reason)
+        doubts = why_later(work, box)
+        if doubts is not None and box.id not in waiting:
+            waiting.add(box.id)
+            return Refused(doubts)
         plan = desk.picking.try_pick(box)
         return Refused(plan) if isinstance(plan, str) else plan
 
-    decision = select(graph, work.wishes.open(work.now), rule_of(work), grasp_for)
-    return Choice(decision, desk.planner.planned - before)
+    decision = select(graph, wishes, rule, grasp_for)
+    if decision.target is None and waiting:
+        decision = select(graph, wishes, rule, grasp_for)
+    chosen = decision.target
+    doubts = why_later(work, chosen) if chosen is not None else None
+    return Choice(decision, desk.planner.planned - before, doubts)
 
 
 def why_left(work: Workplace, box: Perceived) -> str | None:
@@ -53,6 +68,8 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
         return work.left_behind[box.id]
     if box.id in work.pile.hidden:
         return UNSEEN
+    if work.tries.get(box.id, 0) >= VAIN:
+        return f"{TRIED} {VAIN} times"
     return work.impossible.get(box.gtin) if isinstance(box, Recognition) else why_vague(work, box)
 
 
@@ -64,6 +81,17 @@ def why_vague(work: Workplace, box: Perceived) -> str | None:
     return ODD
 
 
+def why_later(work: Workplace, box: Perceived) -> str | None:
+    """Why a box should wait until nothing better is free; None where it need not."""
+    if work.tries.get(box.id):
+        return TRIED
+    if isinstance(box, Recognition):
+        return None
+    if box.id in work.pile.unsized:
+        return GUESSED
+    return FRESH if work.pile.is_fresh(box.id) else None
+
+
 def may_pass(work: Workplace, box: Perceived) -> bool:
     """Whether another look may show that a box can be taken after all, or that it is none."""
     vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
@@ -72,6 +100,16 @@ def may_pass(work: Workplace, box: Perceived) -> bool:
 
 UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
 """Reasons that another look may take away."""
+
+GUESSED, FRESH, TRIED = (
+    "one of its edges is a guess",
+    "only the last look has shown it",
+    "it was tried in vain",
+)
+"""Reasons to take another box first."""
+
+VAIN = 3
+"""A box that was tried in vain so often is not as it looks."""
 
 
 def rule_of(work: Workplace) -> ScoreRule:

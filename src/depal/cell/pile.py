@@ -1,7 +1,7 @@
 """What the cell believes stands on the pallet: all looks together, and what one may have missed."""
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -21,6 +21,10 @@ EQUAL = 0.003
 
 LEVEL = 0.010
 """A box whose bottom is this near to what could carry it stands on it [m]."""
+
+COARSE = 0.025
+"""The same for a sight that measures with cameras: distances are the worst of what it measures [m].
+"""
 
 OVER = 0.015
 """Boxes that overlap on the ground by more than this may carry one another [m]."""
@@ -72,6 +76,9 @@ class Pile:
         self._left: dict[BoxId, Gtin | None] = {}
         self._read: dict[BoxId, Gtin] = {}
         self._sizes: dict[BoxId, Vector3] = {}
+        self._looks = 0
+        self._level = LEVEL
+        self._since: dict[BoxId, int] = {}
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
         self.obstacles: tuple[OrientedBox, ...] = ()
@@ -80,10 +87,13 @@ class Pile:
     def see(self, view: View) -> None:
         """Takes over what a look has found."""
         found = {box.id: box for box in view.boxes if box.id not in self._taken}
+        self._looks += 1
+        for box in found:
+            self._since.setdefault(box, self._looks)
         if view.obstacles is not None:
             self.bared = {}
         if view.remembered:
-            self._boxes = found
+            self._boxes, self._level = found, COARSE
             self.hidden, self.unsized = view.hidden, view.unsized
             if view.obstacles is not None:
                 self.obstacles = view.obstacles
@@ -147,7 +157,13 @@ class Pile:
     def boxes(self) -> tuple[Perceived, ...]:
         """What stands there, by name; level and square where it seems so."""
         known = [self._known(self._boxes[name]) for name in sorted(self._boxes)]
-        return tuple(known) if self._deck is None else settled(known, self._deck)
+        if self._deck is None:
+            return tuple(known)
+        return settled(known, self._deck, self.unsized, self._level)
+
+    def is_fresh(self, box: BoxId) -> bool:
+        """Whether only the last look has shown a box, and there were looks before it."""
+        return 1 < self._looks == self._since.get(box)
 
     def get(self, box: BoxId) -> Perceived | None:
         """A box by its name."""
@@ -181,12 +197,19 @@ def _perceived(box: Remembered, last: Perceived | None) -> Perceived:
     return Detection(box.name, box.seen.shape)
 
 
-def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
+def settled(
+    boxes: Iterable[Perceived],
+    deck: Deck,
+    unsized: Collection[BoxId] = (),
+    level: float = LEVEL,
+) -> tuple[Perceived, ...]:
     """Boxes as they can stand: square to the pallet, and on what carries them, where it is near.
 
     Args:
         boxes: upright, in the cell frame.
         deck: what the lowest stand on.
+        unsized: boxes of which an edge is a guess: their faces stay where they were seen.
+        level: a box whose bottom is this near to what could carry it stands on it [m].
 
     Returns:
         The same boxes in the same order.
@@ -199,20 +222,22 @@ def settled(boxes: Iterable[Perceived], deck: Deck) -> tuple[Perceived, ...]:
         off = _yaw(box.shape) - deck.yaw
         away = off - quarter * round(off / quarter)
         yaw = _yaw(box.shape) - (away if abs(away) < SQUARE else 0.0)
-        bottom = _carried(box.shape, [other.shape for other in done.values()], deck)
+        bottom = _bottom(box.shape)
+        if box.id not in unsized:
+            bottom = _carried(box.shape, [other.shape for other in done.values()], deck, level)
         x, y, _ = centre
         pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
         done[box.id] = replace(box, shape=OrientedBox(pose, size))
     return tuple(done[box.id] for box in listed)
 
 
-def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck) -> float:
+def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck, level: float) -> float:
     """The height of what carries a box, where something near does; else of its bottom [m]."""
     bottom = _bottom(box)
     heights = [deck.height]
     heights += [_bottom(other) + other.size[2] for other in below if _over(box, other)]
     nearest = min(heights, key=lambda height: abs(height - bottom))
-    return nearest if abs(nearest - bottom) < LEVEL else bottom
+    return nearest if abs(nearest - bottom) < level else bottom
 
 
 def _over(box: OrientedBox, other: OrientedBox) -> bool:

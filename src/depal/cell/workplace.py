@@ -163,6 +163,7 @@ class Workplace:
         left_behind: boxes that stay on the pallet, and why.
         aside_reasons: why boxes are set aside.
         doubted: boxes that were not as they looked: they are looked at before another try.
+        tries: how often the gripper had no hold of a box that it was at.
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
         feedback: told what the work finds out about boxes.
@@ -181,6 +182,7 @@ class Workplace:
     left_behind: dict[BoxId, str] = field(default_factory=dict)
     aside_reasons: dict[BoxId, str] = field(default_factory=dict)
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
+    tries: dict[BoxId, int] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
     feedback: Feedback = field(default_factory=Feedback)

@@ -37,6 +37,7 @@ class Seeing:
         self._desk = desk
         self._notes = notes
         self._again = self._blank = self._absent = 0
+        self._doubted: set[BoxId] = set()
 
     async def look(self, context: Context) -> Report:
         """Takes a picture and finds the boxes; what it learns of each is a fact of its own."""
@@ -78,6 +79,10 @@ class Seeing:
         if decision.target is None or decision.grasp is None:
             return await self._stuck(choice, pallet)
         box = decision.target.id
+        if choice.doubts is not None and box not in self._doubted:
+            self._doubted.add(box)
+            self._work.feedback.doubt()
+            return Report(((f"{pallet}.seen", False),), reason=f"box {box}: {choice.doubts}")
         self._again = self._absent = 0
         self._desk.promises.keep_pick(decision.grasp)
         store = Call("store", (box,), priority_of(decision, box))

@@ -2,10 +2,12 @@
 
 import asyncio
 
+from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.identity import size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.primitives.feeling import lifted_from, sucked
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Recognition
@@ -60,9 +62,10 @@ class Taking:
         box = BoxId(context.args["Box"])
         plan = self._desk.promises.pick_in_hand(box)
         ports = self._work.ports
-        if not await ports.gripper.suck(plan.grasp.cups):
+        if not await sucked(self._work, self._desk, plan):
             return await self._let_go(plan, "the vacuum did not come")
-        slipped = await ports.arm.follow(plan.lift, self._guards.holding())
+        lift = lifted_from(self._desk, plan)
+        slipped = await ports.arm.follow(lift, self._guards.holding())
         await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
         slipped = slipped or self._wrong_weight(plan, mass)
@@ -95,8 +98,12 @@ class Taking:
             return f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
         if most is not None and mass > HEAVY * most + SPARE:
             size = size_by_weight(work.delivery, plan.box.shape.size, mass)
-            if size is not None and not isinstance(plan.box, Recognition):
+            if isinstance(plan.box, Recognition):
+                pass
+            elif size is not None:
                 work.pile.resize(plan.box.id, size)  # it is another product: taken anew as that
+            else:
+                work.tries[plan.box.id] = VAIN  # it is two boxes, or part of something else
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
         return None
 
@@ -126,6 +133,9 @@ class Taking:
         self._desk.promises.forget_pick(box)
         failed = self._work.doubted.get(box, frozenset())
         self._work.doubted[box] = failed | {plan.grasp.approach}
+        self._work.tries[box] = tries = self._work.tries.get(box, 0) + 1
+        if tries >= VAIN and not isinstance(plan.box, Recognition):
+            self._work.deny(plan.box)  # something else stands there, or nothing
         return Report(((ARM_AT, None),), Outcome.FAILED, reason)
 
     async def probe_arm(self, context: Context) -> Report:

@@ -91,7 +91,7 @@ def _part(
     width = float(np.mean([each.width for each in parts]))
     seen = Seen(top.other if top else None, width, front.other if front else None)
     standing = () if front else _standing(parts[0], all_, region.ground)
-    return _Part(front, top, sized(seen, products, gtin or name, standing), gtin)
+    return _Part(front, top, sized(seen, products, gtin, standing, name), gtin)
 
 
 def _draft(part: _Part, region_from_cell: Pose) -> Draft:

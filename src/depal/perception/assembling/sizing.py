@@ -59,6 +59,7 @@ def sized(
     products: Sequence[Product],
     gtin: Gtin | None,
     standing: Sequence[float] = (),
+    supposed: Gtin | None = None,
 ) -> Sized:
     """The size that fits what was seen.
 
@@ -67,6 +68,8 @@ def sized(
         products: what may be there, the likeliest first.
         gtin: the product, where the print says it.
         standing: heights that the box may have, for something that it can stand on is there [m].
+        supposed: the product that the print seems to say: its size is taken where it fits, and is
+            certain only where no other product's fits as well.
     """
     ways = [
         (_misfit(seen, way), way, product.gtin)
@@ -82,8 +85,9 @@ def sized(
         return _as_seen(seen, standing)
     if seen.height is None and standing:
         fitting.sort(key=lambda each: each[0] + min(abs(each[1][2] - high) for high in standing))
-    best = fitting[0][1]
-    near = [each for each in fitting if each[0] < fitting[0][0] + CLEARLY]
+    likely = [each for each in fitting if each[2] == supposed] or fitting
+    best = likely[0][1]
+    near = [each for each in fitting if each[0] < likely[0][0] + CLEARLY]
     same = [each for each in near if np.allclose(each[1], best, atol=EQUAL)]
     certain = len(same) == len(near) or (seen.depth is not None and seen.height is not None)
     tall = certain or seen.height is not None

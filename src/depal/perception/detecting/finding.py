@@ -77,7 +77,7 @@ class Finder:
     """
 
     score: FaceScore = field(default_factory=shipped_score)
-    eager: float = 1.5
+    eager: float = 2.5
 
     def faces(
         self,

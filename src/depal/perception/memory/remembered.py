@@ -17,6 +17,9 @@ FULL = 5
 FORGETTING = 0.5
 """What a box is believed in after a look that should have shown it and did not."""
 
+NAMED = 2.0
+"""A name that could be believed speaks for a box as much as so many looks without one."""
+
 OTHER_SIZE = 0.012
 """Sizes that differ by more are not the same size seen twice [m]."""
 
@@ -49,7 +52,8 @@ class Remembered:
     @property
     def belief(self) -> float:
         """How much speaks for the box: what looks have shown, and what they have not."""
-        return self.seen.score * min(self.looks, FULL) * FORGETTING**self.missed
+        named = NAMED if self.seen.gtin is not None else 1.0
+        return self.seen.score * named * min(self.looks, FULL) * FORGETTING**self.missed
 
     @property
     def centre(self) -> Vector3:
@@ -73,6 +77,8 @@ class Remembered:
 
     def _elsewhere(self, seen: SeenBox, now: float) -> "Remembered":
         """A look shows it elsewhere: believed when the next one agrees with it."""
+        if self.looks > 1 and self._is_worse(seen):
+            return replace(self, looks=self.looks - 1, missed=0, last=now, rival=None)
         rival = self.rival
         if rival is None or between(rival.shape, seen.shape).shift > MOVED:
             return replace(self, missed=0, last=now, rival=seen)
@@ -83,6 +89,11 @@ class Remembered:
         """Whether a look has learned another size, and knows better: by the product's print."""
         differ = max(abs(a - b) for a, b in zip(self.seen.shape.size, seen.shape.size, strict=True))
         return differ > OTHER_SIZE and (seen.gtin is not None or self.seen.gtin is None)
+
+    def _is_worse(self, seen: SeenBox) -> bool:
+        """Whether a look tells less than those before: another size, and no name where one was."""
+        differ = max(abs(a - b) for a, b in zip(self.seen.shape.size, seen.shape.size, strict=True))
+        return self.seen.gtin is not None and seen.gtin is None and differ > OTHER_SIZE
 
     def unseen(self) -> "Remembered":
         """A look does not show it."""
