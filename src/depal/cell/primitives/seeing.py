@@ -84,6 +84,7 @@ class Seeing:
             self._work.feedback.doubt()
             return Report(((f"{pallet}.seen", False),), reason=f"box {box}: {choice.doubts}")
         self._again = self._absent = 0
+        self._work.gone(box).clear()  # it may have been given up before
         self._desk.promises.keep_pick(decision.grasp)
         store = Call("store", (box,), priority_of(decision, box))
         return Report(((f"{pallet}.next", box),), allocate=(store,))
