@@ -68,7 +68,7 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
         return work.left_behind[box.id]
     if box.id in work.pile.hidden:
         return UNSEEN
-    if work.tries.get(box.id, 0) >= VAIN:
+    if work.pile.remembered and work.tries.get(box.id, 0) >= VAIN:
         return f"{TRIED} {VAIN} times"
     return work.impossible.get(box.gtin) if isinstance(box, Recognition) else why_vague(work, box)
 
@@ -83,7 +83,7 @@ def why_vague(work: Workplace, box: Perceived) -> str | None:
 
 def why_later(work: Workplace, box: Perceived) -> str | None:
     """Why a box should wait until nothing better is free; None where it need not."""
-    if work.tries.get(box.id):
+    if work.pile.remembered and work.tries.get(box.id):
         return TRIED
     if isinstance(box, Recognition):
         return None

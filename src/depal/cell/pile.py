@@ -66,8 +66,9 @@ class Pile:
         Args:
             deck: what the boxes stand on, where it is known.
 
-        `hidden`, `unsized` and `obstacles` are those of the last look; `bared` are boxes that have
-        left since: what stands below them nobody has seen yet.
+        `hidden`, `unsized` and `obstacles` are those of the last look; `remembered` is whether the
+        sight has a memory of its own: such a sight measures with cameras, and errs; `bared` are
+        boxes that have left since: what stands below them nobody has seen yet.
         """
         self._deck = deck
         self._memory = Memory(patience=MISSED)
@@ -77,7 +78,7 @@ class Pile:
         self._read: dict[BoxId, Gtin] = {}
         self._sizes: dict[BoxId, Vector3] = {}
         self._looks = 0
-        self._level = LEVEL
+        self.remembered = False
         self._since: dict[BoxId, int] = {}
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
@@ -93,7 +94,7 @@ class Pile:
         if view.obstacles is not None:
             self.bared = {}
         if view.remembered:
-            self._boxes, self._level = found, COARSE
+            self._boxes, self.remembered = found, True
             self.hidden, self.unsized = view.hidden, view.unsized
             if view.obstacles is not None:
                 self.obstacles = view.obstacles
@@ -159,11 +160,11 @@ class Pile:
         known = [self._known(self._boxes[name]) for name in sorted(self._boxes)]
         if self._deck is None:
             return tuple(known)
-        return settled(known, self._deck, self.unsized, self._level)
+        return settled(known, self._deck, self.unsized, COARSE if self.remembered else LEVEL)
 
     def is_fresh(self, box: BoxId) -> bool:
-        """Whether only the last look has shown a box, and there were looks before it."""
-        return 1 < self._looks == self._since.get(box)
+        """Whether only the last look has shown a box, there were looks before it, and they err."""
+        return self.remembered and 1 < self._looks == self._since.get(box)
 
     def get(self, box: BoxId) -> Perceived | None:
         """A box by its name."""

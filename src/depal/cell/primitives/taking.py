@@ -134,7 +134,8 @@ class Taking:
         failed = self._work.doubted.get(box, frozenset())
         self._work.doubted[box] = failed | {plan.grasp.approach}
         self._work.tries[box] = tries = self._work.tries.get(box, 0) + 1
-        if tries >= VAIN and not isinstance(plan.box, Recognition):
+        told = isinstance(plan.box, Recognition) or not self._work.pile.remembered
+        if tries >= VAIN and not told:
             self._work.deny(plan.box)  # something else stands there, or nothing
         return Report(((ARM_AT, None),), Outcome.FAILED, reason)
 
