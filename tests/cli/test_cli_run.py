@@ -103,7 +103,7 @@ def test_the_status_says_whether_the_run_holds(
     status, out, err = depal("dev-000", "--cell", "roll_containers", "--json", target)
     assert (status, out, err) == (0 if holds else 1, "shown\n", "")
     assert json.loads(target.read_text("utf-8"))["watched"] is True
-    assert asked == [Options(delivery="dev-000", cell="roll_containers")]
+    assert asked == [Options(delivery="dev-000", cell="roll_containers", perception="camera")]
 
 
 def depal_job() -> object:
