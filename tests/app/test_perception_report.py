@@ -28,7 +28,7 @@ def score(right: int, wrong: int, missed: int) -> Score:
     return Score(
         1,
         dict.fromkeys(Facing, detected),
-        tuple(PoseError(facing, 0.004, -0.002, -0.01, 0.001) for facing in Facing),
+        tuple(PoseError(facing, 0.004, -0.002, -0.01, 0.001, grasp=True) for facing in Facing),
         names,
         RelationCounts(Share(9, 10), Share(10, 10)),
         RelationCounts(),
@@ -61,7 +61,9 @@ def test_figures_have_the_targets_of_their_severity() -> None:
     assert figures["normal: top faces: recall"].n == 42
     assert figures["normal: front faces: centre sideways, p95"].value == pytest.approx(4.0)
     assert figures["normal: top faces: yaw, p95"].value == pytest.approx(math.degrees(0.01))
-    assert math.isnan(figures["hard: top faces: yaw, p95"].target)
+    assert figures["normal: top grasp faces: yaw, p95"].target == 1.0
+    assert math.isnan(figures["normal: top faces: yaw, p95"].target)
+    assert math.isnan(figures["hard: top grasp faces: yaw, p95"].target)
     assert figures["normal: known boxes named wrong"].value == pytest.approx(100 / 27)
     assert figures["normal: on top: precision"].value == 0.9
     assert math.isnan(figures["normal: occludes: recall"].value)

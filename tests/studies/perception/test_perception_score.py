@@ -78,6 +78,15 @@ def test_a_top_that_is_described_the_other_way_round_is_the_same_top() -> None:
     assert (error.yaw, error.size) == pytest.approx((0.0, 0.0), abs=1e-9)
 
 
+def test_grasp_faces_are_those_of_boxes_that_none_stands_on_or_before() -> None:
+    """Of a block the upper front row alone; its faces count among all too."""
+    truth = wall_of(3, 2, 2)
+    score = scored(perfect(truth), truth)
+    for facing in Facing:
+        errors = [error for error in score.poses if error.facing is facing]
+        assert (len(errors), sum(error.grasp for error in errors)) == (6, 3)
+
+
 def named(look: Look, names: list[str | None]) -> Look:
     """The look with other names."""
     boxes = [

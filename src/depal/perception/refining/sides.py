@@ -40,6 +40,9 @@ SEEMED = 0.005
 NOISE = 0.012
 """Steps of log brightness or colour along a whole side that mean nothing."""
 
+SHARP = 3.0
+"""An edge that stands out twice as much is so many powers of two as likely."""
+
 EXACT, VAGUE = 0.0016, 0.008
 """A side that stands out is found so exactly, and one that does not, as deviations [m]."""
 
@@ -71,18 +74,21 @@ class Sides:
             stands out there.
         rows: (8, 7) how the sides' places, then their slants, change with the face's errors.
         step: between places across [m].
+        middles: how far the middle place is from where each side was thought to be [m].
     """
 
     strengths: tuple[Floats, ...]
     rows: Floats
     step: float
+    middles: tuple[float, ...]
 
     @classmethod
     def of(cls, patch: Patch) -> Self:
         """Of a face that is laid flat, with a margin, seen by a camera."""
         tones, slants = _tones(patch), np.linspace(-SLANT, SLANT, SLANTS)
         strengths = tuple(_strengths(*_strip(tones, patch, k), slants) for k in range(4))
-        return cls(strengths, rows_of(patch), patch.step)
+        middles = tuple(_middle(patch, k) for k in range(4))
+        return cls(strengths, rows_of(patch), patch.step, middles)
 
     def told(self, before: Belief) -> Belief:
         """What the edges say about where a face is, of which something is believed."""
@@ -127,6 +133,7 @@ class Sides:
             Lying(
                 strength,
                 self.step,
+                self.middles[k],
                 (float(expected[k]), float(sigma[k])),
                 (float(expected[k + 4]), math.hypot(float(still[k]), USUAL)),
             )
@@ -174,12 +181,14 @@ class Lying:
     Attributes:
         strength: (slants, across) how much an edge stands out there.
         step: between places across [m].
+        middle: how far the middle one is from where the side was thought to be [m].
         place: where it is likely to be, from where it was thought to be: mean, deviation [m].
         slant: the same for its slant [rad].
     """
 
     strength: Floats
     step: float
+    middle: float
     place: tuple[float, float]
     slant: tuple[float, float]
 
@@ -187,21 +196,22 @@ class Lying:
     def away(self) -> Floats:
         """(across,) the places [m]."""
         around = self.strength.shape[1] // 2
-        return np.asarray((np.arange(2 * around + 1) - around) * self.step)
+        return np.asarray((np.arange(2 * around + 1) - around) * self.step + self.middle)
 
     @property
     def _weighted(self) -> Floats:
         """(slants, across) the strength, less where the slant is not likely."""
         slants = np.linspace(-SLANT, SLANT, SLANTS)
         mean, sigma = self.slant
-        return np.asarray(self.strength * np.exp(-0.5 * ((slants - mean) / sigma) ** 2)[:, None])
+        likely = np.exp(-0.5 / SHARP * ((slants - mean) / sigma) ** 2)
+        return np.asarray(self.strength * likely[:, None])
 
     @property
     def standing(self) -> Floats:
         """(slants,) how much speaks for each slant."""
         mean, sigma = self.place
         likely = np.exp(-0.5 * ((self.away - mean) / math.hypot(sigma, LIKELY)) ** 2)
-        return np.asarray(np.log1p((self.strength * likely).max(axis=1) / NOISE))
+        return np.asarray(SHARP * np.log1p((self.strength * likely).max(axis=1) / NOISE))
 
     @property
     def profile(self) -> Floats:
@@ -221,7 +231,8 @@ class Lying:
         """
         value = self._weighted
         sigma = math.hypot(NEAR, apart)
-        value = value * np.exp(-0.5 * ((self.away - self.place[0] - shift) / sigma) ** 2)
+        away = (self.away - self.place[0] - shift) / sigma
+        value = value * np.exp(-0.5 / SHARP * away**2)
         row, column = (int(each) for each in np.unravel_index(int(value.argmax()), value.shape))
         stands_out = float(self.strength[row, column])
         slants = np.linspace(-SLANT, SLANT, SLANTS)
@@ -266,13 +277,26 @@ def _strip(tones: Narrow, patch: Patch, side: int) -> tuple[Narrow, npt.NDArray[
     reach = round(REACH / patch.step)
     width = tones.shape[1]
     edge = patch.margin / patch.step
-    at = round(edge) if side < 2 else width - 1 - round(edge)  # noqa: PLR2004
+    at = _pixel(patch, side)
     first, last = max(at - reach, 0), min(at + reach + 1, width)
     inner = slice(round(edge), tones.shape[0] - round(edge))
     pad = (reach - (at - first), reach - (last - 1 - at))
     strip = np.pad(tones[inner, first:last], ((0, 0), pad, (0, 0)), mode="edge")
     seen = np.pad(known[inner, first:last], ((0, 0), pad), constant_values=False)
     return np.ascontiguousarray(strip), np.ascontiguousarray(seen)
+
+
+def _pixel(patch: Patch, side: int) -> int:
+    """The column, or row, that is the middle of a side's strip."""
+    edge = round(patch.margin / patch.step)
+    return edge if side < 2 else patch.known.shape[1 - side % 2] - 1 - edge  # noqa: PLR2004
+
+
+def _middle(patch: Patch, side: int) -> float:
+    """How far that pixel is from where the side was thought to be, towards + u or + v [m]."""
+    half = (patch.known.shape[1 - side % 2] - 1) / 2
+    out = -1.0 if side < 2 else 1.0  # noqa: PLR2004
+    return (_pixel(patch, side) - half) * patch.step - out * patch.size[side % 2] / 2
 
 
 def _strengths(strip: Narrow, known: npt.NDArray[np.bool_], slants: Floats) -> Floats:

@@ -19,6 +19,7 @@ class PoseError:
         depth: its middle, across the plane; positive is too far away [m].
         yaw: its turn about the vertical [rad].
         size: the greater of the errors of width and height [m].
+        grasp: whether the box could be grasped as it stands: none is on it or before it.
     """
 
     facing: Facing
@@ -26,10 +27,17 @@ class PoseError:
     depth: float
     yaw: float
     size: float
+    grasp: bool = False
 
 
-def pose_error(found: Face, true: TrueFace) -> PoseError:
-    """Compares a face with the one that it is."""
+def pose_error(found: Face, true: TrueFace, *, grasp: bool = False) -> PoseError:
+    """Compares a face with the one that it is.
+
+    Args:
+        found: as it was found.
+        true: as it is.
+        grasp: whether its box could be grasped.
+    """
     turn = np.array(true.cell_from_face.rotation)
     off = (np.array(found.cell_from_face.translation) - true.cell_from_face.translation) @ turn
     axes = np.array(found.cell_from_face.rotation)
@@ -42,7 +50,8 @@ def pose_error(found: Face, true: TrueFace) -> PoseError:
     )
     size = found.size[::-1] if quarter else found.size
     wrong = max(abs(a - b) for a, b in zip(size, true.size, strict=True))
-    return PoseError(true.facing, float(np.hypot(off[0], off[1])), float(off[2]), yaw, float(wrong))
+    sideways, depth = float(np.hypot(off[0], off[1])), float(off[2])
+    return PoseError(true.facing, sideways, depth, yaw, float(wrong), grasp)
 
 
 def _turned(found: np.ndarray, true: np.ndarray, period: float) -> float:

@@ -80,6 +80,7 @@ def _detection(facing: Facing, target: float) -> list[Quantity]:
 
 
 def _poses(facing: Facing) -> list[Quantity]:
+    """Of grasp faces, those of boxes that none stands on or before, and of all that were found."""
     errors: dict[str, tuple[str, float, float, Callable[[PoseError], float]]] = {
         "centre sideways": ("mm", 8.0, 1e3, lambda error: error.sideways),
         "centre in depth": ("mm", 8.0, 1e3, lambda error: abs(error.depth)),
@@ -87,12 +88,13 @@ def _poses(facing: Facing) -> list[Quantity]:
     }
     return [
         Quantity(
-            f"{facing.value} faces: {name}, p{PERCENTILE}",
+            f"{facing.value} {which}: {name}, p{PERCENTILE}",
             unit,
-            target,
+            target if grasp else math.nan,
             "lower",
-            partial(_percentile, facing=facing, scale=scale, of=of),
+            partial(_percentile, facing=facing, grasp=grasp, scale=scale, of=of),
         )
+        for which, grasp in (("grasp faces", True), ("faces", False))
         for name, (unit, target, scale, of) in errors.items()
     ]
 
@@ -136,9 +138,10 @@ def _occludes(score: Score) -> RelationCounts:
 
 
 def _percentile(
-    score: Score, facing: Facing, scale: float, of: Callable[[PoseError], float]
+    score: Score, facing: Facing, *, grasp: bool, scale: float, of: Callable[[PoseError], float]
 ) -> Value:
-    errors = [scale * of(error) for error in score.poses if error.facing is facing]
+    chosen = [error for error in score.poses if error.facing is facing]
+    errors = [scale * of(error) for error in chosen if error.grasp or not grasp]
     return Value(float(np.percentile(errors, PERCENTILE)) if errors else math.nan, len(errors))
 
 

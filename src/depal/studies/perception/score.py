@@ -74,6 +74,7 @@ def scored(look: Look, truth: Truth) -> Score:
     matching = match_faces(faces, truth.faces)
     boxes = match_boxes(look, truth, faces, matching)
     on_top, occludes = true_relations([box.shape for box in truth.boxes])
+    blocked = {lower for _, lower in (*on_top.asked, *occludes.asked)}
     return Score(
         1,
         {
@@ -84,7 +85,10 @@ def scored(look: Look, truth: Truth) -> Score:
             )
             for facing in Facing
         },
-        tuple(pose_error(faces[found], truth.faces[true]) for found, true in matching.pairs),
+        tuple(
+            pose_error(faces[found], truth.faces[true], grasp=truth.faces[true].box not in blocked)
+            for found, true in matching.pairs
+        ),
         identities(look.boxes, truth.boxes, boxes),
         judged(look.on_top, on_top, boxes),
         judged(look.occludes, occludes, boxes),
