@@ -25,6 +25,7 @@ from cells_at_work import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from depal.cell.primitives.feeling import STEPS
 from depal.cell.primitives.seeing import ABSENT
 from depal.cell.workplace import Settings
 from depal.domain import PlaceId, Recognition, Request
@@ -35,6 +36,9 @@ from depal.ports import TAKEN, Question
 from depal.ports.fakes import FakeBays, FakeGripper, FakePerson, FakeReader
 
 HERE = Path(__file__).resolve().parent
+
+FELT = 1 + len(STEPS)
+"""So often the gripper sucks before it gives a grasp up."""
 
 SHELF = (PlaceId("shelf/level_1"), PlaceId("shelf/level_2"))
 
@@ -219,7 +223,7 @@ def test_a_box_that_the_note_promises_and_no_look_shows_is_asked_for() -> None:
 def test_a_box_that_is_none_is_forgotten() -> None:
     """A person says that there is nothing where the cell sees a box."""
     person = FakePerson(lambda question: question.choices[-1])
-    cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4), 0.0)), person=person).works()
+    cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4 * FELT), 0.0)), person=person).works()
     assert cell.fates == {}
     assert len(cell.work.pile) == 0
 
@@ -256,7 +260,7 @@ def test_a_store_that_is_silent_for_a_while_is_asked_again() -> None:
 
 def test_a_vacuum_that_does_not_come_is_tried_again() -> None:
     """The arm draws back and approaches anew."""
-    cell = Cell(2, gripper=FakeGripper({0: 0.0, 1: 0.0})).works()
+    cell = Cell(2, gripper=FakeGripper(dict.fromkeys(range(2 * FELT), 0.0))).works()
     cell.assert_whole()
     assert set(cell.fates.values()) == {STORED}
     first = cell.choices[0].target
@@ -266,7 +270,7 @@ def test_a_vacuum_that_does_not_come_is_tried_again() -> None:
 
 def test_a_box_that_cannot_be_sucked_is_left_to_a_person() -> None:
     """After four tries; the others are stored first."""
-    cell = Cell(3, gripper=FakeGripper(dict.fromkeys(range(4), 0.0))).works()
+    cell = Cell(3, gripper=FakeGripper(dict.fromkeys(range(4 * FELT), 0.0))).works()
     cell.assert_whole()
     first = str(cell.choices[0].target)
     assert cell.fates.pop(first) is PERSON
@@ -527,7 +531,7 @@ def test_a_box_stays_stored_when_the_arm_refuses_to_draw_back() -> None:
 
 def test_a_person_is_told_why_a_box_could_not_be_taken() -> None:
     """The last thing that went wrong, in words."""
-    cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4), 0.0))).works()
+    cell = Cell(1, gripper=FakeGripper(dict.fromkeys(range(4 * FELT), 0.0))).works()
     assert "the vacuum did not come" in texts(cell)[0]
     assert cell.work.departures.sequence[0].reason == "the vacuum did not come"
 

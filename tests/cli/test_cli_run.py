@@ -68,7 +68,7 @@ def test_a_delivery_is_emptied_and_the_result_written(
     assert {"version", "command"} <= set(fields)
     assert (fields["delivery"], fields["boxes"], fields["stored"]) == ("small", 2, 2)
     assert (fields["w"], fields["seed"], fields["speed"]) == (0.25, 4, 1.0)
-    assert (fields["policy"], fields["perception"]) == ("paper", "truth")
+    assert (fields["policy"], fields["perception"]) == ("paper", "camera")
     assert [entry["stack"] for entry in fields["sequence"]] == [0, 1]
     (request,) = fields["requests"]
     assert (request["gtin"], request["boxes_before"]) == ("12000900000020", 1)
@@ -103,7 +103,7 @@ def test_the_status_says_whether_the_run_holds(
     status, out, err = depal("dev-000", "--cell", "roll_containers", "--json", target)
     assert (status, out, err) == (0 if holds else 1, "shown\n", "")
     assert json.loads(target.read_text("utf-8"))["watched"] is True
-    assert asked == [Options(delivery="dev-000", cell="roll_containers")]
+    assert asked == [Options(delivery="dev-000", cell="roll_containers", perception="camera")]
 
 
 def depal_job() -> object:
@@ -118,7 +118,7 @@ WRONG = [
     (("--speed", "2"), "--speed: 2.0 is out of range; expected a number in (0, 1]"),
     (("--speed", "nan"), "--speed: nan is out of range; expected a number in (0, 1]"),
     (("--policy", "papr"), "--policy: unknown policy 'papr'; did you mean 'paper'?"),
-    (("--perception", "eyes"), "--perception: 'eyes' is not there yet; there is: truth"),
+    (("--perception", "eyes"), "--perception: unknown perception 'eyes'; there is: camera, truth"),
     (
         ("--cell", "defalt"),
         (

@@ -120,7 +120,7 @@ def test_the_print_tells_where_the_face_is(side: str, moved: tuple[float, float,
     assert named is not None
     told = named.refined
     assert (told.du, told.dv) == pytest.approx(moved[:2], abs=4e-4)
-    assert told.turn == pytest.approx(moved[2], abs=2e-3)
+    assert told.turn == pytest.approx(moved[2], abs=5e-3)
     assert all(sigma > 0 for sigma in told.sigma)
 
 

@@ -28,7 +28,7 @@ def test_another_seed_takes_other_photographs_of_the_same_print() -> None:
         book.entries[PRODUCTS[0].gtin].faces["top"].astype(float) for book in (first, second)
     )
     assert (one != other).mean() > 0.5
-    assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.8
+    assert np.corrcoef(one.ravel(), other.ravel())[0, 1] > 0.7
 
 
 def test_about_the_stated_share_of_the_products_is_known() -> None:

@@ -33,7 +33,7 @@ BEHIND = 0.25
 PRINTED = 0.0025
 """The print sits so exactly on a box, two boxes against each other: standard deviation [m]."""
 
-TURNED = math.radians(0.15)
+TURNED = math.radians(0.2)
 """The same for its turn [rad]."""
 
 

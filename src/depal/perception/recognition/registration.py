@@ -24,7 +24,7 @@ NOISE = 0.15
 REACH = 0.016
 """The first search looks so far around [m]."""
 
-STEPS = 6
+STEPS = 9
 """Gauss-Newton steps at the most."""
 
 STILL = (0.02, 2e-4)

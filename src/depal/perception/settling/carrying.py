@@ -1,7 +1,8 @@
 """What a box stands on, where that is near to its bottom."""
 
 import math
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 
 import numpy as np
@@ -88,13 +89,15 @@ def contacts(
     carried = {contact.upper for contact in found}
     levels = _levels(drafts, bottoms, carried, ground)
     for a in sorted({k for k, draft in enumerate(drafts) if draft.stands} - carried):
-        gap = _above(float(bottoms[a]), float(spread[a, a]), levels)
-        if gap is not None:
-            found.append(Contact(a, None, gap, LEVEL))
+        above = _above(float(bottoms[a]), float(spread[a, a]), levels)
+        if above is not None:
+            found.append(Contact(a, None, above, LEVEL))
     return found
 
 
-def _levels(drafts: Sequence[Draft], bottoms: Floats, carried: Set[int], ground: float) -> Floats:
+def _levels(
+    drafts: Sequence[Draft], bottoms: Floats, carried: AbstractSet[int], ground: float
+) -> Floats:
     """(n,) heights at which boxes may stand: where some do, and on boxes that stand there [m]."""
     known = _merged([ground, *(float(bottoms[k]) for k in sorted(carried))])
     heights = _merged([draft.size[2] for draft in drafts if draft.stands])

@@ -39,7 +39,10 @@ BEHIND = 0.06
 SEEN = 0.5
 """Of a face that teaches so much is visible."""
 
-HARD, COARSE, FOREIGN = 0.3, 0.35, 0.15
+CLEAN = 0.6
+"""Share of the coarse cameras that smooth their pictures."""
+
+HARD, COARSE, FOREIGN = 0.3, 0.4, 0.15
 """Shares of the scenes that are hard, and that a camera with half the pixels takes; share of the
 boxes that nobody knows."""
 
@@ -142,12 +145,17 @@ def _rough(size: Vector3, factor: float, random: np.random.Generator) -> Vector3
 
 
 def coarser(frame: Frame, random: np.random.Generator) -> Frame:
-    """A frame as a camera with half the pixels and paler colours takes it."""
+    """A frame as a camera with half the pixels and paler colours takes it.
+
+    Some such cameras smooth away what is faint, noise and small print alike.
+    """
     height, width = frame.colour.shape[:2]
     small = cv2.resize(frame.colour, (width // 2, height // 2), interpolation=cv2.INTER_AREA)
     mean = small.mean(axis=(0, 1))
     pale = mean + (small - mean) * random.uniform(0.5, 1.0)
     pale = np.clip(pale + random.normal(0.0, 2.0, pale.shape), 0, 255).astype(np.uint8)
+    if random.random() < CLEAN:
+        pale = np.asarray(cv2.bilateralFilter(pale, 7, 18.0, 3.0), dtype=np.uint8)
     k = np.array(frame.colour_k)
     k[:2] /= 2
     k[:2, 2] -= 0.25
