@@ -88,3 +88,33 @@ def test_of_two_things_that_could_carry_a_box_the_nearer_does() -> None:
     upon = Detection(BoxId("upon"), OrientedBox.upright((1.75, 0.0, 0.446), (0.4, 0.3, 0.2)))
     *_, after = settled((low, high, upon), Deck(0.144, 0.0))
     assert after.shape.centre[2] == pytest.approx(0.444)
+
+
+def from_cameras(taken: float, *boxes: Detection, unsized: frozenset[BoxId] = frozenset()) -> View:
+    """What a sight with a memory of its own shows."""
+    return View(taken, boxes, remembered=True, unsized=unsized)
+
+
+def test_a_box_that_only_the_last_look_has_shown_is_fresh() -> None:
+    """The first look has nothing older to offer; a sight that does not err is never waited for."""
+    pile, exact = Pile(), Pile()
+    pile.see(from_cameras(0.0, detection("b1")))
+    assert not pile.is_fresh(BoxId("b1"))
+    pile.see(from_cameras(1.0, detection("b1"), detection("b2", 2.0)))
+    assert [pile.is_fresh(BoxId(name)) for name in ("b1", "b2")] == [False, True]
+    pile.see(from_cameras(2.0, detection("b1"), detection("b2", 2.0)))
+    assert not pile.is_fresh(BoxId("b2"))
+    exact.see(View(0.0, (detection("b1"),)))
+    exact.see(View(1.0, (detection("b1"), detection("b2", 2.0))))
+    assert not exact.is_fresh(BoxId("b2"))
+
+
+@given(st.floats(-0.024, 0.024))
+def test_a_box_whose_height_is_a_guess_is_not_set_on_anything(error: float) -> None:
+    """Its top is what was seen; of a box that is known the bottom tells more."""
+    pile = Pile(Deck(0.35 + error, 0.0))
+    box = detection("b1")  # its bottom is at 0.35 m
+    pile.see(from_cameras(0.0, box, unsized=frozenset({box.id})))
+    assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5)
+    pile.see(from_cameras(1.0, box))
+    assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5 + error)

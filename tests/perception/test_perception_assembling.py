@@ -103,6 +103,9 @@ def test_a_size_that_two_products_leave_open_is_not_certain() -> None:
     assert not found.certain
     assert sized(Seen(0.28, 0.30, 0.15), (SMALL, twin), None).gtins == {twin.gtin}
     assert sized(Seen(None, 0.30, 0.15), (SMALL, twin), SMALL.gtin).certain
+    supposed = sized(Seen(None, 0.30, 0.15), (SMALL, twin), None, (), SMALL.gtin)
+    assert supposed.depth == sized(Seen(None, 0.30, 0.15), (SMALL,), None).depth
+    assert not supposed.certain  # a name that is only likely makes nothing certain
 
 
 def test_what_fits_no_product_keeps_its_measures() -> None:

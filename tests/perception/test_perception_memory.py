@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from seen_boxes import blurred, seen
 
 from depal.domain import BoxId, DeliveryLine, Gtin, Product
+from depal.geometry import OrientedBox
 from depal.perception.faces import Look, SeenBox
 from depal.perception.memory import Memory, tally_of
 from depal.perception.memory.memory import FRESH, PATIENCE
@@ -196,3 +197,16 @@ def test_a_surplus_is_a_sentence() -> None:
         "the note promises 2 of product a, this is one more",
         "product c is not on the note",
     ]
+
+
+def test_a_name_outweighs_a_look_that_shows_another_size_without_one() -> None:
+    """As many looks as have shown it must show otherwise, before it is believed."""
+    wide = replace(PILE[0], gtin=None, shape=OrientedBox.upright((1.6, 0.4, 0.36), (0.3, 0.2, 0.4)))
+    memory = looked(Memory(), PILE[:1])
+    size = PILE[0].shape.size
+    for at in range(1, 3):
+        memory = looked(memory, PILE[:1], float(at))
+    memory = looked(memory, (wide,), 3.0)
+    box = next(iter(memory))
+    assert box.seen.gtin == "a"
+    assert box.seen.shape.size == pytest.approx(size)
