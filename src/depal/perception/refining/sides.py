@@ -289,12 +289,12 @@ def _strip(tones: Narrow, patch: Patch, side: int) -> tuple[Narrow, npt.NDArray[
 def _pixel(patch: Patch, side: int) -> int:
     """The column, or row, that is the middle of a side's strip."""
     edge = round(patch.margin / patch.step)
-    return edge if side < 2 else patch.known.shape[1 - side % 2] - 1 - edge  # noqa: PLR2004
+    return edge if side < 2 else int(patch.known.shape[1 - side % 2]) - 1 - edge  # noqa: PLR2004
 
 
 def _middle(patch: Patch, side: int) -> float:
     """How far that pixel is from where the side was thought to be, towards + u or + v [m]."""
-    half = (patch.known.shape[1 - side % 2] - 1) / 2
+    half = (int(patch.known.shape[1 - side % 2]) - 1) / 2
     out = -1.0 if side < 2 else 1.0  # noqa: PLR2004
     return (_pixel(patch, side) - half) * patch.step - out * patch.size[side % 2] / 2
 
