@@ -25,7 +25,7 @@ UPRIGHT = math.radians(0.2)
 """Boxes stand so upright, as a standard deviation [rad]."""
 
 UNMODELLED = (0.0015, 0.0015, 0.0, math.radians(0.2))
-"""Beside what measurements say, x, y, z [m] and yaw [rad] are off by so much: wrong edges, bulges."""
+"""Beside what measurements say, x, y, z [m], yaw [rad] are off by so much: wrong edges, bulges."""
 
 FREE = [0, 1, 2, 5]
 """Of a pose's six numbers those that an upright box leaves open."""
