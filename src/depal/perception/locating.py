@@ -38,6 +38,9 @@ RESEMBLES = 0.6
 """A print that agrees less well says nothing about where its face is."""
 
 
+STILL = (0.0015, 0.0015, np.inf, np.inf, math.radians(0.3), np.inf, np.inf)
+"""A face whose edges move it by less is not laid flat anew [m, rad]."""
+
 RIGHT = 0.93
 """A print that agrees better is of the right product, or of one that is as large."""
 
@@ -72,13 +75,14 @@ def located(
     patch = rectified(frames, face.facing, face.cell_from_face, face.size)
     if patch is None:
         return face
-    face, belief, patch = _rough(face, belief, patch, frames, near)
+    sides, first = Sides.of(patch), patch
+    face, belief, patch = _rough(face, belief, patch, sides, frames, near)
     identity = identify(patch, gallery) if gallery is not None else None
     if identity is not None and gallery is not None:
         face = replace(face, name=identity.name)
         if identity.name.score > RESEMBLES:
             face, belief, patch = _by_print(face, belief, patch, frames, identity, gallery)
-    belief += Sides.of(patch).told(belief)
+    belief += (sides if patch is first else Sides.of(patch)).told(belief)
     face, belief = _moved(face, belief)
     sway = np.zeros(7)
     if depths is not None:
@@ -90,11 +94,12 @@ def _rough(
     face: Face,
     belief: Belief,
     patch: Patch,
+    sides: Sides,
     frames: Sequence[Frame],
     sizes: Sequence[tuple[float, float]],
 ) -> tuple[Face, Belief, Patch]:
     """The face where its edges say that it is, as large as they say; so its print is found."""
-    sides, more = Sides.of(patch), np.zeros(2)
+    more = np.zeros(2)
     if sizes:
         every = np.array(sizes) - face.size
         best = sides.grown(belief, every)
@@ -102,6 +107,8 @@ def _rough(
     grown = np.array([0.0, 0.0, 0.0, 0.0, 0.0, *more])
     step = (belief + sides.told(belief.from_there(-grown))).mean
     step[[WIDTH, HEIGHT]] = 0.0
+    if not more.any() and bool((np.abs(step) < STILL).all()):
+        return face, belief, patch
     there = replace(face, cell_from_face=moved(face.cell_from_face, step))
     return there, belief.from_there(step), _patch(there, frames, patch)
 

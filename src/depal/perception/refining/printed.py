@@ -18,10 +18,10 @@ OUTLIER = 0.35
 NOISE = 0.15
 """Features of a picture and another box of the product differ by so much at least."""
 
-ALIKE = 12.0
+ALIKE = 5.5
 """So many pixels that are looked at differ alike."""
 
-EVERY = 2
+EVERY = 3
 """One pixel of so many along rows and columns is looked at."""
 
 STEPS = 5
