@@ -4,13 +4,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from depal.domain import DeliveryLine, Detection, Perceived, Recognition
+from depal.domain import DeliveryLine, Detection, Gtin, Perceived, Recognition
 from depal.geometry import OrientedBox, Vector3
 from depal.perception.memory import Remembered
 from depal.perception.memory.anchors import resized_at_its_face
 
 ALIKE = 0.02
 """A box whose edges are this near to those of a product on the note has that product's size [m]."""
+
+ANY = 0.25
+"""The edges of a product that was named replace those that were seen, off by so much even [m]."""
 
 SAME = 0.004
 """Products whose edges differ by less have one size [m]."""
@@ -26,8 +29,17 @@ def perceived(box: Remembered, note: Sequence[DeliveryLine] | None = None) -> Pe
     """
     seen = box.seen
     if seen.gtin is not None:
-        return Recognition(box.name, seen.shape, seen.gtin)
+        return Recognition(box.name, _as_named(seen.shape, seen.gtin, note or ()), seen.gtin)
     return Detection(box.name, _as_promised(seen.shape, note or ()) if seen.sized else seen.shape)
+
+
+def _as_named(shape: OrientedBox, gtin: Gtin, note: Sequence[DeliveryLine]) -> OrientedBox:
+    """The shape with the size of its product: a name that was believed outweighs an edge."""
+    for line in note:
+        if line.product.gtin == gtin:
+            size = turned_like(line.product.size, shape.size, ANY)
+            return shape if size is None else resized_at_its_face(shape, size)
+    return shape
 
 
 def _as_promised(shape: OrientedBox, note: Sequence[DeliveryLine]) -> OrientedBox:
