@@ -81,7 +81,7 @@ def sloped(print_: Narrow, i: int, j: int, f: int, a: float, b: float, room: Flo
         f: which feature.
         a: how far to the right of it, 0 .. 1.
         b: how far below it.
-        room: (3, 5) value, slope along the row and along the column in its first places; updated.
+        room: (3, k) value, slope along the row, slope along the column, then others; updated.
     """
     p, q = print_[j, i, f], print_[j, i + 1, f]
     m, n = print_[j + 1, i, f], print_[j + 1, i + 1, f]

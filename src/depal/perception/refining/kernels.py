@@ -1,4 +1,4 @@
-"""The loop that adds up a strip along slanted lines."""
+"""The loops that lay sides, depths and prints onto what a face shows."""
 
 import math
 
@@ -6,6 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.geometry import loop_kernel
+from depal.perception.recognition.kernels import sloped
 
 Narrow = npt.NDArray[np.float32]
 Floats = npt.NDArray[np.float64]
@@ -112,26 +113,6 @@ def laid_over(  # noqa: PLR0913, PLR0917
         for h in range(g):
             normal[g, h] = normal[h, g]
     return total / max(count, 1e-9)
-
-
-@loop_kernel
-def sloped(seen: Narrow, i: int, j: int, f: int, a: float, b: float, room: Floats) -> None:
-    """Takes a feature between four pixels off a value, and says how it changes.
-
-    Args:
-        seen: (h, w, 3).
-        i: column of the upper left one.
-        j: its row.
-        f: which feature.
-        a: how far to the right of it, 0 .. 1.
-        b: how far below it.
-        room: (3, 6) value, slope along the row and along the column in its first places; updated.
-    """
-    p, q = seen[j, i, f], seen[j, i + 1, f]
-    m, n = seen[j + 1, i, f], seen[j + 1, i + 1, f]
-    room[f, 0] -= (p * (1 - a) + q * a) * (1 - b) + (m * (1 - a) + n * a) * b
-    room[f, 1] = (q - p) * (1 - b) + (n - m) * b
-    room[f, 2] = (m - p) * (1 - a) + (n - q) * a
 
 
 @loop_kernel
