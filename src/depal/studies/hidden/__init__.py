@@ -1,0 +1,1 @@
+"""Requests for boxes that nobody has seen: the paper waits, access searches."""
