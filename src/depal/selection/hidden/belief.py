@@ -61,10 +61,15 @@ class Belief:
         Returns:
             (m,) how much of each placement belongs to it: all, nothing, or a part of the last.
         """
-        order = np.argsort(-self.mass, kind="stable")
-        before = np.cumsum(self.mass[order]) - self.mass[order]
+        return self.region_of(self.mass, share)
+
+    @staticmethod
+    def region_of(mass: Array, share: float) -> Array:
+        """The same of any probabilities (m,)."""
+        order = np.argsort(-mass, kind="stable")
+        before = np.cumsum(mass[order]) - mass[order]
         held = np.zeros(len(order))
-        held[order] = np.clip((share - before) / np.maximum(self.mass[order], _TINY), 0.0, 1.0)
+        held[order] = np.clip((share - before) / np.maximum(mass[order], _TINY), 0.0, 1.0)
         return held
 
 
@@ -124,27 +129,27 @@ def features(scene: Scene, found: Placements, prisms: Array) -> Array:
 
 
 def flushness(prisms: Array) -> float:
-    """How flush the seen boxes are: the share that has a side in the plane of another's opposite.
+    """How flush a pile is, from the share of its boxes that touch another one sideways.
 
     Args:
-        prisms: (k, 8).
+        prisms: (k, 8) of the seen boxes.
 
     Returns:
-        In [0, 1], over the boxes and the axes x and y.
+        0 where at most half of them do, 1 where all do, in [0, 1].
     """
-    if len(prisms) < _FEW:
+    if not len(prisms):
         return 0.0
-    found = []
-    for axis in (0, 1):
-        reach = _reach(prisms, axis)
-        low, high = prisms[:, axis] - reach, prisms[:, axis] + reach
-        meets = np.abs(low[:, None] - high[None, :]) <= _TOUCH
-        found += [meets.any(axis=0).mean(), meets.any(axis=1).mean()]
-    return float(np.mean(found))
+    reach = np.stack([_reach(prisms, 0), _reach(prisms, 1), prisms[:, HALF_HEIGHT]])
+    low, high = prisms[:, :3].T - reach, prisms[:, :3].T + reach
+    beside = (
+        np.minimum(high[:, :, None], high[:, None, :])
+        - np.maximum(low[:, :, None], low[:, None, :])
+    ) > _TOUCH  # fmt: skip
+    meets = np.abs(high[:, :, None] - low[:, None, :]) <= _TOUCH
+    along = (meets[0] & beside[1] & beside[2]) | (meets[1] & beside[0] & beside[2])
+    share = float((along | along.T).any(axis=1).mean())
+    return max(0.0, 2 * share - 1)
 
-
-_FEW = 2
-"""Fewer boxes than these cannot touch one another."""
 
 _SIDES = tuple((axis, low) for axis in range(3) for low in (True, False))
 
