@@ -226,6 +226,65 @@ def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
 
 
 @study.command()
+def due(
+    pallets: Pallets = 100,
+    small: Annotated[
+        int, typer.Option(help="So many of at most ten boxes, beside the exact optimum.", min=0)
+    ] = 50,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine,dropped",
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Several requests with due times: weighted lateness by the paper's rule and by access."""
+    from depal.app.due import due as run  # noqa: PLC0415 - fast help
+    from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.app.reports import due_report  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    names = named_generators(generators)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Due times") as progress:
+        rows = run(names, pallets, small, seed, executor, progress)
+    report = due_report(rows, pallets, small, seed, time.perf_counter() - start)
+    _finish(report, json_file, plot)
+
+
+@study.command()
+def hidden(
+    pallets: Pallets = 50,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine,layered,cubic,columns,dropped",
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """A box that nobody has seen is requested: the paper's rule waits, access searches."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports import hidden_report  # noqa: PLC0415
+    from depal.studies.hidden import hidden_rows  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    names = named_generators(generators)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Hidden boxes") as progress:
+        rows = hidden_rows(names, pallets, seed, executor, progress)
+    report = hidden_report(rows, pallets, seed, time.perf_counter() - start)
+    _finish(report, json_file, plot)
+
+
+@study.command()
 def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     deliveries: Annotated[
         str,
