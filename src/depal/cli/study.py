@@ -247,6 +247,9 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     severity: Annotated[
         str, typer.Option(help="How far cameras and prints are from ideal.")
     ] = "normal",
+    policy: Annotated[
+        str, typer.Option(help="Which boxes may be taken: paper, or access.")
+    ] = "paper",
     workers: Workers = 1,
     dask: Dask = None,
     keep: Annotated[
@@ -266,7 +269,7 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     _check_targets(json_file, plot)
-    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity)
+    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity, policy)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
         result = run(asked, keep, executor, progress)
