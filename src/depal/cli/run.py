@@ -20,6 +20,13 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
+    note: Annotated[
+        str,
+        typer.Option(
+            help="The note that the cell is told instead: FILE or FILE#ID, JSON or CSV.",
+            show_default=False,
+        ),
+    ] = "",
     requests: Annotated[
         str, typer.Option(help="A file of requests, or none.", show_default=False)
     ] = "",
@@ -50,6 +57,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     options = Options(
         delivery=delivery,
         cell=cell,
+        note=note,
         requests=requests,
         w=w,
         policy=policy,
