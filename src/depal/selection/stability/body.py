@@ -83,9 +83,7 @@ class Body:
             (strength * x, strength * y),
         )
 
-    def bound(
-        self, push: Direction, friction: float, enough: float = np.inf
-    ) -> tuple[float, int]:
+    def bound(self, push: Direction, friction: float, enough: float = np.inf) -> tuple[float, int]:
         """The greatest acceleration for which forces are found, and who falls first beyond.
 
         Args:

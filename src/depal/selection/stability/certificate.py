@@ -7,6 +7,9 @@ from depal.domain import BoxId
 
 Direction = tuple[float, float]
 
+EDGE = 1e-6
+"""A pile with no more margin than this stands on an edge, and falls [g]."""
+
 
 class Proof(Enum):
     """How a margin is meant."""
@@ -21,7 +24,7 @@ class Certificate:
     """The margin of a pile: the sideways acceleration that it sustains in every direction.
 
     Attributes:
-        margin: [g]; below 0 the pile does not stand even at rest.
+        margin: [g]; of EDGE or less: the pile does not stand even at rest.
         proof: whether the margin is exact, or a bound.
         direction: the unit push, along x and y of the cell, that the pile sustains least.
         limiting: the boxes that would begin to move, where any would.
@@ -39,13 +42,13 @@ class Certificate:
     @property
     def stands(self) -> bool:
         """Whether the pile stands at rest for certain."""
-        return self.margin >= 0 and self.proof is not Proof.AT_MOST
+        return self.margin > EDGE and self.proof is not Proof.AT_MOST
 
     def __str__(self) -> str:
         """One line: "margin at least 0.120 g towards +x, limited by b3 (worst of 9 cases)"."""
         x, y = self.direction
         axis = f"{'+' if x > 0 else '-'}x" if abs(x) >= abs(y) else f"{'+' if y > 0 else '-'}y"
-        if self.margin < 0:
+        if self.margin <= EDGE:
             said = "does not stand at rest"
         else:
             said = f"margin {self.proof.value} {self.margin:.3f} g towards {axis}"
