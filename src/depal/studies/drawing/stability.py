@@ -62,10 +62,10 @@ def stability_figure(
     """
     page = sheet(
         HEIGHT,
-        f"A guard on the margin: {100 * without.collapse:.1f} % of unloadings collapse without "
-        f"it, {100 * guarded.collapse:.1f} % with it",
-        "The margin that nine of ten piles have at least, over the unloading (left); what the "
-        "linear program says and what MuJoCo does (right).",
+        f"{100 * without.collapse:.1f} % of unloadings collapse without a guard, "
+        f"{100 * guarded.collapse:.1f} % with it",
+        "The margin of all but the weakest tenth of piles (left); what the program says and what "
+        "MuJoCo does (right).",
         joined("Loose pallets, paper's policy; margins by the contact-force program", note),
     )
     left, bottom, width, height = page.whole
