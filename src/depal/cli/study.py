@@ -119,6 +119,38 @@ def fig9(
 
 
 @study.command()
+def stability(  # noqa: PLR0913, PLR0917 - a command's options
+    pallets: Annotated[
+        int,
+        typer.Option(help="Pairs of unloadings of loose pallets, and of full packings.", min=1),
+    ] = 1_000,
+    states: Annotated[
+        int, typer.Option(help="Random states that are compared with MuJoCo.", min=1)
+    ] = 600,
+    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.2,
+    threshold: Annotated[
+        float, typer.Option(help="The guard's least margin, in g.", min=0.0)
+    ] = 0.03,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Margins against MuJoCo, and collapses with and without a guard on them."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports import stability_report  # noqa: PLC0415
+    from depal.studies.stability import stability as run  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Stability") as progress:
+        result = run(pallets, states, seed, w, threshold, executor=executor, progress=progress)
+    _finish(stability_report(result, seed, time.perf_counter() - start), json_file, plot)
+
+
+@study.command()
 def case2(
     draws: Annotated[int, typer.Option(help="Jittered draws per layout.", min=0)] = 1_000,
     seed: Seed = 0,
