@@ -79,12 +79,14 @@ class Settings:
         policy: which boxes may be taken.
         speed: share of the arm's full speed, in (0, 1].
         charges: of simulated time.
+        guard: whether a box waits that would leave a pile with too little margin.
     """
 
     w: float = 0.5
     policy: Policy = Policy.PAPER
     speed: float = 1.0
     charges: Charges = field(default_factory=Charges)
+    guard: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -34,6 +34,10 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     policy: Annotated[
         str, typer.Option(help="Which boxes may be taken: paper, or access.")
     ] = "paper",
+    guard: Annotated[  # noqa: FBT002 - a flag
+        bool,
+        typer.Option("--guard", help="Let boxes wait whose removal leaves a pile with < 0.03 g."),
+    ] = False,
     perception: Annotated[
         str, typer.Option(help="Where boxes come from: camera, or truth.")
     ] = "camera",
@@ -61,6 +65,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         requests=requests,
         w=w,
         policy=policy,
+        guard=guard,
         perception=perception,
         severity=severity,
         seed=seed,

@@ -92,6 +92,7 @@ def prepared(options: Options) -> Job:
         w=checked_share("--w", options.w),
         policy=policy_of(options.policy),
         speed=checked_speed(options.speed),
+        guard=options.guard,
     )
     recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
     return Job(

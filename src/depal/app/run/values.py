@@ -26,6 +26,7 @@ class Options:
         requests: a file of requests, "none", or "" for what the delivery brings.
         w: the weight of Eq. (3).
         policy: which boxes may be taken.
+        guard: whether a box waits that would leave a pile with too little margin.
         perception: where boxes come from.
         severity: how far cameras and boxes are from ideal.
         seed: of every random number.
@@ -40,6 +41,7 @@ class Options:
     requests: str = ""
     w: float = 0.5
     policy: str = "paper"
+    guard: bool = False
     perception: str = "truth"
     severity: str = "normal"
     seed: int = 0
