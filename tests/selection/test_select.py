@@ -268,7 +268,7 @@ def test_a_product_request_aims_at_the_case_with_the_fewest_blockers() -> None:
     boxes = [*tower([BEANS, RICE, None, BEANS, None]), aside]
     wish = Request(priority=0.8, gtin=BEANS)
     decision = choose(boxes, [wish])
-    assert decision.aims == (Aim(wish, BoxId("b3"), 1),)
+    assert decision.aims == (Aim(wish, BoxId("b3"), 1, 1),)
     assert {v.box.id for v in decision.verdicts if v.l > 0} == {"b3", "b4"}
 
 

@@ -2,12 +2,14 @@
 
 from dataclasses import dataclass
 
+from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.workplace import Workplace
+from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Perceived, Recognition
-from depal.selection import BlockingGraph, Decision, Refused, ScoreRule, select
+from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
+from depal.selection.access import NO_WAY, AccessGraph
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,7 +40,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     Returns:
         The choice; its grasp is a planned pick.
     """
-    graph = BlockingGraph(work.pile.boxes)
+    graph = blocking_of(work, desk)
     wishes, rule = work.wishes.open(work.now), rule_of(work)
     before = desk.planner.planned
     waiting: set[BoxId] = set()
@@ -51,6 +53,8 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         if doubts is not None and box.id not in waiting:
             waiting.add(box.id)
             return Refused(doubts)
+        if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
+            return Refused(NO_WAY)
         plan = desk.picking.try_pick(box)
         return Refused(plan) if isinstance(plan, str) else plan
 
@@ -60,6 +64,26 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     chosen = decision.target
     doubts = why_later(work, chosen) if chosen is not None else None
     return Choice(decision, desk.planner.planned - before, doubts)
+
+
+def blocking_of(work: Workplace, desk: Desk) -> Blocking:
+    """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
+    graph = BlockingGraph(work.pile.boxes)
+    if work.settings.policy is Policy.PAPER:
+        return graph
+    kinematics = desk.planner.mover.body.kinematics
+    ways, codes = ways_in_cell(graph, work.layout, kinematics, desk.picking.offered)
+    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now)
+
+
+def pace_of(work: Workplace) -> float:
+    """How long one box takes, by what has left so far [s]."""
+    left = len(work.pile.taken)
+    return work.now / left if left else PACE
+
+
+PACE = 8.0
+"""How long a box takes before one has left [s]; `depal study throughput` measures it."""
 
 
 def why_left(work: Workplace, box: Perceived) -> str | None:

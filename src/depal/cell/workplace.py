@@ -67,6 +67,7 @@ class Policy(Enum):
     """Which boxes may be taken."""
 
     PAPER = "paper"
+    ACCESS = "access"
 
 
 @dataclass(frozen=True, slots=True)

@@ -24,7 +24,9 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         str, typer.Option(help="A file of requests, or none.", show_default=False)
     ] = "",
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
-    policy: Annotated[str, typer.Option(help="Which boxes may be taken: paper.")] = "paper",
+    policy: Annotated[
+        str, typer.Option(help="Which boxes may be taken: paper, or access.")
+    ] = "paper",
     perception: Annotated[
         str, typer.Option(help="Where boxes come from: camera, or truth.")
     ] = "camera",

@@ -181,6 +181,51 @@ def unload(
 
 
 @study.command()
+def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
+    pallets: Pallets = 1_000,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine",
+    side_only: Annotated[
+        str, typer.Option(help="Shares of boxes that only a side grasp takes, with commas.")
+    ] = "0,0.25,0.5,0.75,1",
+    cell_pallets: Annotated[
+        int, typer.Option(help="So many of them also with the tool's clearance and reach.", min=0)
+    ] = 100,
+    deliveries: Annotated[
+        str,
+        typer.Option(help="A file of deliveries, FILE#ID for one of them; else those shipped."),
+    ] = "",
+    cell: Annotated[
+        str, typer.Option(help="A cell file, or the name of one that ships.")
+    ] = "default",
+    referee: Annotated[
+        int, typer.Option(help="So many of each are proven again by another program.", min=0)
+    ] = 100,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Removals before a requested box: the paper's rule and access, beside the proven minimum."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports import retrieval_report  # noqa: PLC0415
+    from depal.app.retrieval import RetrievalAsked  # noqa: PLC0415
+    from depal.app.retrieval import retrieval as run  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    asked = RetrievalAsked(
+        pallets, generators, side_only, cell_pallets, deliveries, cell, referee, seed
+    )
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Retrieval") as progress:
+        result = run(asked, executor, progress)
+    _finish(retrieval_report(result, asked, time.perf_counter() - start), json_file, plot)
+
+
+@study.command()
 def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     deliveries: Annotated[
         str,
@@ -202,6 +247,9 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     severity: Annotated[
         str, typer.Option(help="How far cameras and prints are from ideal.")
     ] = "normal",
+    policy: Annotated[
+        str, typer.Option(help="Which boxes may be taken: paper, or access.")
+    ] = "paper",
     workers: Workers = 1,
     dask: Dask = None,
     keep: Annotated[
@@ -221,7 +269,7 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     _check_targets(json_file, plot)
-    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity)
+    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity, policy)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
         result = run(asked, keep, executor, progress)

@@ -1,5 +1,6 @@
 """Which box next: section II-C, Eqs. (1)-(3) and Algorithm 1."""
 
+from depal.selection.blocking import Aim, Blocking
 from depal.selection.building import link_prisms
 from depal.selection.decision import Decision, Fate, Outcome, Refused, Scores, Verdict
 from depal.selection.graph import Blocker, BlockingGraph
@@ -12,7 +13,6 @@ from depal.selection.score import (
     position_priority,
 )
 from depal.selection.select import LeafAlone, leaf_alone, select
-from depal.selection.wanted import Aim
 
 __all__ = [
     "EXACT",
@@ -20,6 +20,7 @@ __all__ = [
     "PERCEIVED",
     "Aim",
     "Blocker",
+    "Blocking",
     "BlockingGraph",
     "Decision",
     "Fate",

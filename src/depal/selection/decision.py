@@ -9,11 +9,11 @@ import numpy.typing as npt
 
 from depal.domain import BoxId, Perceived, Request
 from depal.errors import PileError, Problem, did_you_mean
+from depal.selection.blocking import Aim
 from depal.selection.graph import Blocker
 from depal.selection.links import Array, Indices
 from depal.selection.relations import Relation
 from depal.selection.score import ScoreRule
-from depal.selection.wanted import Aim
 
 G = TypeVar("G")
 
@@ -159,8 +159,10 @@ class Decision(Generic[G]):
         if blockers:
             on_top = sorted(b.box for b in blockers if b.relation & Relation.ON_TOP)
             before = sorted(b.box for b in blockers if b.relation & Relation.OCCLUDES)
+            crowds = sorted(b.box for b in blockers if b.relation == Relation.CROWDS)
             parts = [f"{', '.join(on_top)} on top"] if on_top else []
             parts += [f"{', '.join(before)} in front"] if before else []
+            parts += [f"{', '.join(crowds)} where the tool has to go"] if crowds else []
             return Fate.BLOCKED, "; ".join(parts)
         if slot in self.refusals:
             return Fate.UNREACHABLE, self.refusals[slot]

@@ -1,6 +1,6 @@
 """The graph G of the perceived boxes, kept up to date from look to look and pick to pick."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +9,7 @@ import numpy.typing as npt
 from depal.domain import BoxId, Perceived
 from depal.errors import PileError, Problem, did_you_mean
 from depal.geometry import PRISM_WIDTH, first_unsound, prism_of, prisms_of
+from depal.selection.blocking import Aim
 from depal.selection.building import link_prisms
 from depal.selection.links import (
     BUILT,
@@ -168,6 +169,17 @@ class BlockingGraph:
     def geometric_rank(self) -> npt.NDArray[np.int64]:
         """(slots,) where each slot's box stands in the order that settles ties."""
         return geometric_rank(self._prisms)
+
+    def removals(self, slot: int) -> tuple[int, int]:
+        """|T(b)| - 1 of the box in a slot, which no order under G can undercut; twice."""
+        slots = len(self._boxes)
+        marked, stack = np.zeros(slots, np.bool_), np.empty(slots, np.int32)
+        count = int(mark_reachable(self._links, slot, marked, stack)) - 1
+        return count, count
+
+    def ahead(self, aims: Sequence[Aim]) -> tuple[frozenset[int], ...]:  # noqa: ARG002
+        """None: by the paper the score alone decides."""
+        return ()
 
     # What changes
 

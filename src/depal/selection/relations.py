@@ -30,10 +30,14 @@ X, Y, Z, HALF_HEIGHT = 0, 1, 2, 5
 
 
 class Relation(IntFlag):
-    """How a blocker stands to the box that it blocks; both can hold at once."""
+    """How a blocker stands to the box that it blocks; several can hold at once.
+
+    CROWDS is no relation of the paper's: the blocker stands where the tool has to go.
+    """
 
     ON_TOP = 1
     OCCLUDES = 2
+    CROWDS = 4
 
 
 # The pair code of `relate(a, b)`: the relation of b to a, and of a to b two bits higher.

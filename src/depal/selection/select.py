@@ -4,17 +4,19 @@ The paper's loop of lines 15-22 pops boxes until one can be grasped and never en
 can; here it ends in a named outcome with a reason for each box.
 """
 
-from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
+import numpy as np
+
 from depal.domain import Perceived, Request
+from depal.selection.blocking import Aim, Blocking
 from depal.selection.decision import Decision, Outcome, Refused, Scores
-from depal.selection.graph import BlockingGraph
 from depal.selection.links import EMPTY
 from depal.selection.score import ScoreRule, mixed_score, position_priority, queue_order
 from depal.selection.walks import blocker_table, propagate
-from depal.selection.wanted import Aim, aims_of, strongest_first
+from depal.selection.wanted import aims_of, strongest_first
 
 G = TypeVar("G")
 
@@ -30,7 +32,7 @@ def leaf_alone(_: Perceived) -> LeafAlone:
 
 
 def select(
-    graph: BlockingGraph,
+    graph: Blocking,
     requests: Iterable[Request],
     rule: ScoreRule,
     grasp_for: Callable[[Perceived], G | Refused],
@@ -38,7 +40,7 @@ def select(
     """One call of BOXSELECTION.
 
     Args:
-        graph: the perceived boxes and what blocks them (lines 3 and 5).
+        graph: the perceived boxes and what blocks them (lines 3 and 5): G, or another rule.
         requests: what is wanted now (line 2); what nothing has seen yet stays pending.
         rule: w, x_max and the weights of h.
         grasp_for: lines 17 and 18: a reachable grasp of a box, or why there is none. It is
@@ -48,7 +50,7 @@ def select(
         The decision; its target is to be stored next (lines 19 and 23).
     """
     aims, pending = aims_of(graph, requests)
-    scores = _scored(graph, aims, rule)
+    scores = _ahead(_scored(graph, aims, rule), graph.ahead(aims))
     free = scores.slots[graph.links.blockers[scores.slots] == 0]
     refusals: dict[int, str] = {}
     target, grasp = None, None
@@ -73,7 +75,7 @@ def select(
     )
 
 
-def _scored(graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule) -> Scores:
+def _scored(graph: Blocking, aims: tuple[Aim, ...], rule: ScoreRule) -> Scores:
     """Lines 6-13: every box with h, l and s, and the queue ordered by s."""
     h = position_priority(graph.prisms, rule.x_max, rule.weights)
     l = propagate(graph.links, *strongest_first(graph, aims))  # noqa: E741 - the paper's name
@@ -82,7 +84,18 @@ def _scored(graph: BlockingGraph, aims: tuple[Aim, ...], rule: ScoreRule) -> Sco
     return Scores(order[graph.links.blockers[order] != EMPTY], h, l, s)
 
 
-def _outcome(graph: BlockingGraph, target: Perceived | None) -> Outcome:
+def _ahead(scores: Scores, sets: Sequence[frozenset[int]]) -> Scores:
+    """The same queue, with the slots of these sets in front, set by set."""
+    if not sets:
+        return scores
+    group = np.full(len(scores.s), len(sets), np.int64)
+    for number, members in reversed(list(enumerate(sets))):
+        group[list(members)] = number
+    order = np.argsort(group[scores.slots], kind="stable")
+    return replace(scores, slots=scores.slots[order])
+
+
+def _outcome(graph: Blocking, target: Perceived | None) -> Outcome:
     if target is not None:
         return Outcome.CHOSEN
     return Outcome.NOTHING_CAN_BE_GRASPED if len(graph) else Outcome.NOTHING_PERCEIVED

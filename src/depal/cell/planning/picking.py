@@ -14,6 +14,7 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
+from depal.geometry import Vector3
 from depal.motion.grasping import Holding, grasps
 from depal.motion.moves import OPEN, NoMotion, Part, Pick
 from depal.ports import Trajectory
@@ -30,6 +31,7 @@ class Picking:
         self._work = work
         self._planner = planner
         self._promises = promises
+        self._offered: dict[tuple[Vector3, float, int, bool], tuple[Grasp, ...]] = {}
 
     def try_pick(
         self,
@@ -59,11 +61,20 @@ class Picking:
 
     def ways(self, box: Perceived) -> tuple[Grasp, ...]:
         """Every way to hold a box on the pallet, best first."""
+        failed = self._work.doubted.get(box.id, frozenset())
+        return tuple(sorted(self.offered(box), key=lambda grasp: grasp.approach in failed))
+
+    def offered(self, box: Perceived) -> tuple[Grasp, ...]:
+        """The ways to hold a box, whatever has failed; worked out once for boxes that are alike."""
         work = self._work
         front = pallet_front(work.layout.pallet)
-        found = grasps(box.shape, expected_mass(box, work.delivery), work.layout.tool, front)
-        failed = work.doubted.get(box.id, frozenset())
-        return tuple(sorted(found, key=lambda grasp: grasp.approach in failed))
+        mass = expected_mass(box, work.delivery)
+        toward = np.array(box.shape.pose.rotation).T @ np.array(front)
+        axis = int(np.argmax(np.abs(toward[:2])))
+        key = (box.shape.size, mass, axis, bool(toward[axis] > 0))
+        if key not in self._offered:
+            self._offered[key] = grasps(box.shape, mass, work.layout.tool, front)
+        return self._offered[key]
 
     def masses(self, box: Perceived) -> tuple[float | None, float | None]:
         """The least and the most that a box can weigh, by the note [kg]."""

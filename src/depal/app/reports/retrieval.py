@@ -1,0 +1,150 @@
+"""How many boxes must leave before a requested one, with the proven minimum."""
+
+from collections.abc import Sequence
+
+from rich.console import RenderableType
+from rich.text import Text
+
+from depal.app.files import Json
+from depal.app.reports.report import Report, mean_and_interval, plain_table, plus_minus, verdict
+from depal.app.retrieval import RetrievalAsked, RetrievalResult, worse
+from depal.studies.drawing.retrieval import Bar, retrieval_figure
+from depal.studies.retrieval import Checked, Row, StackRows
+
+
+def retrieval_report(result: RetrievalResult, asked: RetrievalAsked, seconds: float) -> Report:
+    """The report of `depal study retrieval`.
+
+    Args:
+        result: what was found.
+        asked: the options.
+        seconds: the wall time of the study.
+
+    Returns:
+        The report; it holds when no request took `access` more actions than `paper` under one
+        model, no plan was left unproven, and the second program agreed.
+    """
+    above, unproven = worse(result.stacks), sum(row.unproven for row in result.rows)
+    unequal = sum(each.compared - each.equal for each in result.checked)
+    holds = above == unproven == unequal == 0
+    shown: list[RenderableType] = [_table(result.rows, asked), _stacks(result.stacks)]
+    shown.append(
+        Text.assemble(
+            "access above paper under one model: ",
+            verdict(above == 0, "never", f"{above} requests"),
+            "; plans not proven to be the smallest: ",
+            verdict(unproven == 0, "none", str(unproven)),
+        )
+    )
+    shown += [_refereed(each) for each in result.checked]
+    return Report(
+        fields={
+            "pallets": asked.pallets,
+            "cell_pallets": min(asked.cell_pallets, asked.pallets),
+            "seed": asked.seed,
+            "seconds": seconds,
+            "rows": [_fields(row) for row in result.rows],
+            "deliveries": [_stack_fields(stack) for stack in result.stacks],
+            "above": above,
+            "unproven": unproven,
+            "referee": [
+                {
+                    "pallets": each.pallets,
+                    "compared": each.compared,
+                    "equal": each.equal,
+                    "chosen": each.chosen,
+                }
+                for each in result.checked
+            ],
+        },
+        shown=shown,
+        draw=lambda: retrieval_figure(
+            [
+                Bar(
+                    row.pallets,
+                    row.side_only,
+                    row.clearance,
+                    row.policy,
+                    row.actions.mean,
+                    row.limit.mean,
+                )
+                for row in result.rows
+            ],
+            note=f"{asked.pallets:,} pallets a kind, seed {asked.seed}",
+        ),
+        holds=holds,
+    )
+
+
+def _refereed(each: Checked) -> Text:
+    return Text.assemble(
+        f"{each.pallets}: another program proves the same minimum on ",
+        verdict(each.equal == each.compared, f"{each.equal}", f"{each.equal}"),
+        f" of {each.compared} pallets; on {each.chosen} a way had to be chosen",
+    )
+
+
+def _fields(row: Row) -> Json:
+    return {
+        "pallets": row.pallets,
+        "side_only": row.side_only,
+        "clearance": row.clearance,
+        "policy": row.policy,
+        "requests": row.actions.n,
+        "actions": mean_and_interval(row.actions),
+        "limit": row.limit.mean,
+        "gap": row.gap.mean,
+        "never": row.never,
+        "unproven": row.unproven,
+    }
+
+
+def _stack_fields(stack: StackRows) -> Json:
+    return {
+        "delivery": stack.delivery,
+        "boxes": stack.boxes,
+        "above": stack.above,
+        "rows": [_fields(row) for row in stack.rows],
+    }
+
+
+def _table(rows: Sequence[Row], asked: RetrievalAsked) -> RenderableType:
+    title = (
+        f"Boxes stored before the requested one; {asked.pallets:,} pallets a kind, "
+        f"{min(asked.cell_pallets, asked.pallets):,} of them in the cell, seed {asked.seed}"
+    )
+    table = plain_table(
+        title, "pallets", "side-only", "clearance", "policy", "actions", "minimum", "gap", "never"
+    )
+    for number, row in enumerate(rows):
+        table.row(
+            row.pallets,
+            f"{row.side_only:.0%}",
+            "and reach" if row.clearance else "no",
+            row.policy,
+            plus_minus(row.actions),
+            f"{row.limit.mean:.2f}",
+            f"{row.gap.mean:.2f}",
+            str(row.never),
+            last=number % 2 == 1,
+        )
+    table.caption = Text(
+        "minimum: proven, under the same rule of what blocks what; gap: above it, in the mean; "
+        "never: requests whose box was never free, left out. Side-only boxes are taken from the "
+        "front alone."
+    )
+    return table
+
+
+def _stacks(stacks: Sequence[StackRows]) -> RenderableType:
+    title = "Real deliveries, every box requested once: actions (gap)"
+    table = plain_table(title, "delivery", "boxes", "clearance", "paper", "access")
+    for stack in stacks:
+        paper, access = stack.rows
+        table.row(
+            stack.delivery,
+            str(stack.boxes),
+            "and reach" if paper.clearance else "no",
+            *(f"{row.actions.mean:.2f} ({row.gap.mean:.2f})" for row in (paper, access)),
+        )
+    return table
