@@ -258,6 +258,38 @@ def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
 
 
 @study.command()
+def benchmark(
+    pallets: Pallets = 100,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine,layered,cubic,columns,dropped",
+    into: Annotated[
+        Path | None,
+        typer.Option(help="Write the table between the marks of this page.", show_default=False),
+    ] = None,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Every policy on every kind of pallet: actions, gap, lateness, collapses, margin, time."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports.benchmark import benchmark_report, write_into  # noqa: PLC0415
+    from depal.studies.benchmark import benchmark as run  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, None)
+    names = named_generators(generators)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Benchmark") as progress:
+        rows = run(names, pallets, seed, executor, progress)
+    if into is not None:
+        write_into(into, rows, pallets, seed)
+    _finish(benchmark_report(rows, pallets, seed, time.perf_counter() - start), json_file, None)
+
+
+@study.command()
 def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     deliveries: Annotated[
         str,
