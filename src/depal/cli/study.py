@@ -274,12 +274,18 @@ def benchmark(
 ) -> None:
     """Every policy on every kind of pallet: actions, gap, lateness, collapses, margin, time."""
     from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports.benchmark import benchmark_report, write_into  # noqa: PLC0415
+    from depal.app.reports.benchmark import (  # noqa: PLC0415
+        benchmark_report,
+        checked_page,
+        write_into,
+    )
     from depal.studies.benchmark import benchmark as run  # noqa: PLC0415
     from depal.studies.pallets import named_generators  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     _check_targets(json_file, None)
+    if into is not None:
+        checked_page(into)
     names = named_generators(generators)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Benchmark") as progress:
