@@ -188,7 +188,7 @@ def _cut(polygons: Array, count: int, nx: float, ny: float, limit: float) -> int
         after = (corner + 1) % count
         far_x, far_y = polygons[0, after, 0], polygons[0, after, 1]
         here, there = nx * x + ny * y - limit, nx * far_x + ny * far_y - limit
-        if here <= 0:
+        if here <= _SAME:
             polygons[1, kept, 0], polygons[1, kept, 1] = x, y
             kept += 1
         if (here < -_SAME and there > _SAME) or (here > _SAME and there < -_SAME):
