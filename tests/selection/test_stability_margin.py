@@ -1,6 +1,7 @@
 """Margins: what statics says of simple piles, and laws of all piles."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from depal.geometry import OrientedBox, prisms_of
 from depal.selection.stability import (
     CAMERA,
     EDGE,
+    KNOWN,
     LEAST,
     SEEN,
     Certificate,
@@ -24,6 +26,8 @@ from depal.selection.stability import (
     weigh,
 )
 from depal.selection.stability import program as program_module
+from depal.selection.stability.body import Body
+from depal.selection.stability.patches import touches_of
 
 Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
@@ -240,11 +244,42 @@ def test_one_case_that_falls_short_is_enough_to_refuse() -> None:
 
 
 def test_many_boxes_find_room_for_all_their_contacts() -> None:
-    """A large slab on two hundred small boxes."""
-    feet = [(0.1 * i, 0.1 * j, 0.0, 0.1, 0.1, 0.1) for i in range(10) for j in range(12)]
-    pile = prisms(*feet, (0.0, 0.0, 0.1, 1.0, 1.2, 0.2))
-    standing = StandingPile(pile, ones(pile))
-    assert standing.certificate(at_least=0.1).proof is Proof.AT_LEAST
+    """Layers of bricks, each on four others."""
+    bricks = [
+        (0.1 * i + 0.05 * (layer % 2), 0.1 * j + 0.05 * (layer % 2), 0.1 * layer, 0.1, 0.1, 0.1)
+        for layer in range(6)
+        for i in range(4)
+        for j in range(4)
+    ]
+    standing = StandingPile(prisms(*bricks), np.ones(len(bricks)), rule=TouchRule(1e-6, 1e-6, 1e-6))
+    assert standing.certificate([0]).margin < standing.friction.under
+
+
+def test_a_patch_smaller_than_the_doubt_carries_nothing() -> None:
+    """A sheet that is thinner than what its place is in doubt."""
+    pile = prisms((0, 0, 0, 0.008, 0.4, 0.2))
+    found = StandingPile(pile, ones(pile), rule=TouchRule(1e-6, 1e-6, 1e-6, 0.005)).certificate()
+    assert found.margin == LEAST
+
+
+@pytest.mark.parametrize(
+    ("case", "order", "push", "falls"),
+    [
+        ("stands", [1, 0], 0.2, -1),
+        ("slips", [1, 0], 0.6, 1),
+        ("looked at in a wrong order", [0, 1], 0.0, 1),
+    ],
+)
+def test_the_quick_pass_says_who_falls_first(
+    case: str, order: list[int], push: float, falls: int
+) -> None:
+    """Two flat boxes, one on the other."""
+    pile = prisms((0, 0, 0, 0.4, 0.4, 0.1), (0, 0, 0.1, 0.4, 0.4, 0.1))
+    body = Body.of(pile, ones(pile), touches_of(pile, KNOWN, 0.0, np.empty(0, np.int32)))
+    shuffled = replace(body, order=np.array(order, np.int32))
+    assert shuffled.falling((1.0, 0.0), push, 0.5) == falls, case
+    nothing = body.only(np.array([False, True]))
+    assert nothing.falling((1.0, 0.0), 0.0, 0.5) == 1
 
 
 def test_parts_that_a_removal_does_not_touch_are_not_solved_again(

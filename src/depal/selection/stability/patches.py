@@ -35,7 +35,8 @@ _CORNERS = 8
 _SAME = 1e-9
 """Corners closer together are one [m]."""
 
-_SMALLEST = 256
+_ROOM = 24
+"""So many corners a box are made room for at first; a pile without gaps has some 15."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,10 +84,6 @@ class Touches:
     bodies: Indices
     points: Array
 
-    def __len__(self) -> int:
-        """How many corners."""
-        return len(self.bodies)
-
 
 def touches_of(prisms: Array, rule: TouchRule, deck: float, carried: Indices) -> Touches:
     """Every contact of a pile.
@@ -100,7 +97,7 @@ def touches_of(prisms: Array, rule: TouchRule, deck: float, carried: Indices) ->
     Returns:
         The corners, box by box.
     """
-    room = max(_SMALLEST, 64 * len(prisms))
+    room = _ROOM * (len(prisms) + 2)
     grounded = np.zeros(len(prisms), np.bool_)
     grounded[carried] = True
     while True:

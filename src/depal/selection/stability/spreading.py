@@ -130,9 +130,7 @@ def _handed_on(
     tx, ty = -loads[row, 0], -loads[row, 1]
     x, y = middle_x - centres[row, 0], middle_y - centres[row, 1]
     turn = -loads[row, 5] - (x * ty - y * tx)
-    if abs(turn) > _NOTHING * weight and spread <= _FLAT:
-        return False
-    rate = turn / spread if spread > _FLAT else 0.0
+    rate = turn / spread  # pressed corners never lie on one line
     for corner in range(first, last):
         if normals[corner] <= 0.0:
             continue
