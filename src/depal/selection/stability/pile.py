@@ -160,7 +160,10 @@ class StandingPile:
         worst = min(answers, key=lambda answer: answer.most)
         if not all(answer.solved for answer in answers):
             return bound
-        return _Found(worst.most, bound.case, bound.direction, worst.limiting, exact=True)
+        # Where nothing stands at rest no box is the limit; the first for which no forces were
+        # found says the most.
+        limiting = worst.limiting if worst.most > LEAST else bound.limiting
+        return _Found(worst.most, bound.case, bound.direction, limiting, exact=True)
 
     def _sustained(self, part: Body, case: int, direction: int) -> Sustained:
         """The program, solved once for each part."""

@@ -7,7 +7,7 @@ import numpy.typing as npt
 
 from depal.selection.stability import EDGE, StandingPile
 from depal.studies.pallets import GENERATORS
-from depal.studies.stability.physics import let_go
+from depal.studies.stability.physics import TOUCHING, let_go
 
 Array = npt.NDArray[np.float64]
 
@@ -91,6 +91,6 @@ def _below(prisms: Array) -> npt.NDArray[np.bool_]:
 
 def compare(state: State) -> Compared:
     """Asks both."""
-    margin = StandingPile(state.prisms, state.masses).certificate().margin
+    margin = StandingPile(state.prisms, state.masses, rule=TOUCHING).certificate().margin
     let = let_go(state.prisms, state.masses)
     return Compared(state.generator, len(state.masses), margin, let.fell, let.moved)

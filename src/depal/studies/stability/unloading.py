@@ -13,7 +13,7 @@ from depal.selection.score import mixed_score, stepped
 from depal.selection.stability import Certificate, StandingPile, guard
 from depal.selection.walks import propagate
 from depal.studies.pallets import GENERATORS
-from depal.studies.stability.physics import let_go
+from depal.studies.stability.physics import TOUCHING, let_go
 from depal.studies.stability.states import draw_masses
 
 Array = npt.NDArray[np.float64]
@@ -100,14 +100,15 @@ def draw_job(generator: str, seed: int, index: int, at_least: float) -> Job:
         prisms = pallet.prisms
         masses = draw_masses(rng, prisms)
         requested, priority = int(rng.integers(len(prisms))), 1.0 - float(rng.random())
-        if StandingPile(prisms, masses).certificate(at_least=at_least).margin >= at_least:
+        pile = StandingPile(prisms, masses, rule=TOUCHING)
+        if pile.certificate(at_least=at_least).margin >= at_least:
             break
     return Job(generator, prisms, masses, pallet.x_max, requested, priority)
 
 
 def run_pair(job: Job, w: float, threshold: float) -> Pair:
     """Takes one pallet apart twice, and lets go of every pile that might fall."""
-    pile = StandingPile(job.prisms, job.masses)
+    pile = StandingPile(job.prisms, job.masses, rule=TOUCHING)
     asked: dict[frozenset[int], bool] = {}
     without, guarded = take_apart(job, pile, w), take_apart(job, pile, w, threshold)
     for taken in (without, guarded):
