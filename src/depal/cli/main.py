@@ -11,6 +11,7 @@ from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
+from depal.cli.beyond import beyond
 from depal.cli.calibrate import calibrate
 from depal.cli.cell import cell
 from depal.cli.delivery import delivery
@@ -29,6 +30,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+study.add_typer(beyond)
 app.add_typer(study, name="study")
 app.add_typer(bench, name="bench")
 app.add_typer(delivery, name="delivery")
