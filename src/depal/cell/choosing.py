@@ -1,14 +1,16 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.seeking import searches
 from depal.cell.standing import Guard, Standing
 from depal.cell.workplace import Policy, Workplace
-from depal.domain import BoxId, Perceived, Recognition
+from depal.domain import BoxId, Perceived, Recognition, Request
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
 from depal.selection.access import NO_WAY, AccessGraph
 
@@ -41,8 +43,8 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     Returns:
         The choice; its grasp is a planned pick.
     """
-    graph = blocking_of(work, desk)
     wishes, rule = work.wishes.open(work.now), rule_of(work)
+    graph = blocking_of(work, desk, wishes)
     standing = Standing(work, graph)
     guard = Guard(standing) if work.settings.guard else None
     before = desk.planner.planned
@@ -75,14 +77,15 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     return Choice(decision, desk.planner.planned - before, doubts)
 
 
-def blocking_of(work: Workplace, desk: Desk) -> Blocking:
+def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:
     """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
     graph = BlockingGraph(work.pile.boxes)
     if work.settings.policy is Policy.PAPER:
         return graph
     kinematics = desk.planner.mover.body.kinematics
     ways, codes = ways_in_cell(graph, work.layout, kinematics, desk.picking.offered)
-    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now)
+    found = searches(work, graph, ways, wishes)
+    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now, sought=found)
 
 
 def pace_of(work: Workplace) -> float:

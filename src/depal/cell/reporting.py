@@ -41,6 +41,23 @@ class Line:
 
 
 @dataclass(frozen=True, slots=True)
+class AimNote:
+    """What a request waits for.
+
+    Attributes:
+        wanted: the product or the box.
+        box: that it aims at.
+        removals: boxes that are to leave before it.
+        least: the proven minimum of them under the policy's rule of what blocks what.
+    """
+
+    wanted: str
+    box: BoxId
+    removals: int
+    least: int
+
+
+@dataclass(frozen=True, slots=True)
 class ChoiceNote:
     """A selection as it is told: Eqs. (1)-(3) per box, best first.
 
@@ -55,6 +72,8 @@ class ChoiceNote:
         x_max: of Eq. (1) [m].
         weights: of h, Eq. (1).
         explanation: why the target, and what would have changed it; None without a target.
+        aims: the box that each request aims at, with its removals and their proven minimum.
+        stands: how firmly the pile stands that the target leaves, in words; empty without one.
     """
 
     at: float
@@ -67,6 +86,8 @@ class ChoiceNote:
     x_max: float
     weights: PositionWeights
     explanation: Explanation | None
+    aims: tuple[AimNote, ...] = ()
+    stands: str = ""
 
     @property
     def why(self) -> str:
@@ -125,6 +146,10 @@ def note_of(at: float, decision: Decision[Any]) -> ChoiceNote:
         x_max=rule.x_max,
         weights=rule.weights,
         explanation=explain(decision),
+        aims=tuple(
+            AimNote(aim.request.wanted, aim.box, aim.removals, aim.least) for aim in decision.aims
+        ),
+        stands="" if decision.certificate is None else str(decision.certificate),
     )
 
 
