@@ -290,6 +290,47 @@ def unloading() -> Iterator[Line]:
     )
 
 
+def due() -> Iterator[Line]:
+    """`depal study due`: lateness by the paper's rule and by the agenda, and the exact optimum."""
+    report, _ = depal(
+        "study", "due", "--pallets", "1000", "--small", "300", "--workers", "2"
+    )  # fmt: skip
+    rows = report["due"]
+    assert isinstance(rows, list)  # noqa: S101 - our own file
+    for row in rows:
+        if row["policy"] != "agenda":
+            continue
+        kind = f"{row['pallets']}, {row['side_only']:.0%} side-only, arrivals: {row['arrivals']}"
+        low, high = row["saved"]["ci95"]
+        what = (
+            f"weighted lateness saved against the paper's rule, {row['requests']} pallets ({kind})"
+        )
+        yield Line(what, "> 0 (95 %)", f"{low:.2f} .. {high:.2f} actions", low > 0)
+        if row["above"] is not None:
+            above = f"{100 * row['above']:.2f} %"
+            what = f"the same, <= 10 boxes ({kind}): above the exact optimum"
+            yield Line(what, "<= 5 %", above, row["above"] <= 0.05)  # noqa: PLR2004 - the figure
+
+
+def hidden() -> Iterator[Line]:
+    """`depal study hidden`: a requested box that nobody has seen."""
+    report, _ = depal("study", "hidden", "--pallets", "250", "--workers", "2")
+    rows = report["hidden"]
+    assert isinstance(rows, list)  # noqa: S101 - our own file
+    for row in rows:
+        if row["policy"] != "searches":
+            continue
+        low, high = row["saved"]["ci95"]
+        what = f"unseen box ({row['pallets']}, {row['requests']} pallets): removals saved"
+        said = f"{low:.2f} .. {high:.2f} ({row['actions']['mean']:.2f} left)"
+        yield Line(what, "> 0 (95 %)", said, low > 0)
+        share = row["region"]["mean"]
+        within = 0.75 <= share <= 0.85 or row["pallets"] != "all"  # noqa: PLR2004 - the figure
+        what = f"unseen box ({row['pallets']}): the 80 % belief region holds it"
+        aim = "75-85 %" if row["pallets"] == "all" else ""
+        yield Line(what, aim, f"{100 * share:.1f} %", within)
+
+
 def tests() -> Iterator[Line]:
     """The unit tests' time, and the branches of the core."""
     start = time.perf_counter()
@@ -326,6 +367,8 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     retrieval,
     stability,
     unloading,
+    due,
+    hidden,
     executive,
     crashes,
     planning,

@@ -51,6 +51,8 @@ def test_every_generator_has_its_table(depal: Run) -> None:
         (("fig8", "--pallets", "300"), {"rows", "pallets", "seed"}),
         (("fig9", "--pallets", "10"), {"rows", "steps", "w"}),
         (("case2", "--draws", "5"), {"layouts"}),
+        (("due", "--pallets", "2", "--small", "1"), {"due", "pallets", "small", "seed"}),
+        (("hidden", "--pallets", "1", "--generators", "cubic,columns"), {"hidden", "pallets"}),
         (("fig4",), {"highest", "lowest"}),
         (("fig5",), {"reachable", "edges"}),
     ],
