@@ -200,6 +200,15 @@ def case2() -> Iterator[Line]:
         )
 
 
+def stability() -> Iterator[Line]:
+    """`depal study stability`: the margins beside MuJoCo, and the guard."""
+    report, _ = depal("study", "stability", "--workers", "2")
+    checks = report["checks"]
+    assert isinstance(checks, list)  # noqa: S101 - our own file
+    for check in checks:
+        yield Line(check["name"], check["allowed"], check["measured"], check["holds"])
+
+
 def unloading() -> Iterator[Line]:
     """`depal study unload` over the deliveries that ship."""
     report, _ = depal("study", "unload")
@@ -249,6 +258,7 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     table1,
     selection,
     case2,
+    stability,
     unloading,
     executive,
     crashes,

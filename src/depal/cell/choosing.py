@@ -1,11 +1,12 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.standing import Guard, Standing
 from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Perceived, Recognition
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
@@ -42,6 +43,8 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     """
     graph = blocking_of(work, desk)
     wishes, rule = work.wishes.open(work.now), rule_of(work)
+    standing = Standing(work, graph)
+    guard = Guard(standing) if work.settings.guard else None
     before = desk.planner.planned
     waiting: set[BoxId] = set()
 
@@ -55,13 +58,19 @@ def choose(work: Workplace, desk: Desk) -> Choice:
             return Refused(doubts)
         if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
             return Refused(NO_WAY)
-        plan = desk.picking.try_pick(box)
-        return Refused(plan) if isinstance(plan, str) else plan
+        plan = (guard and guard.kept(box)) or desk.picking.try_pick(box)
+        if isinstance(plan, str):
+            return Refused(plan)
+        return plan if guard is None else guard.judged(box, plan)
 
     decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and waiting:
         decision = select(graph, wishes, rule, grasp_for)
+    if decision.target is None and guard is not None and guard.force():
+        decision = select(graph, wishes, rule, grasp_for)
     chosen = decision.target
+    if chosen is not None:
+        decision = replace(decision, certificate=standing.without(chosen.id))
     doubts = why_later(work, chosen) if chosen is not None else None
     return Choice(decision, desk.planner.planned - before, doubts)
 

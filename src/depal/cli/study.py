@@ -119,6 +119,38 @@ def fig9(
 
 
 @study.command()
+def stability(  # noqa: PLR0913, PLR0917 - a command's options
+    pallets: Annotated[
+        int,
+        typer.Option(help="Pairs of unloadings of loose pallets, and of full packings.", min=1),
+    ] = 1_000,
+    states: Annotated[
+        int, typer.Option(help="Random states that are compared with MuJoCo.", min=1)
+    ] = 600,
+    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.2,
+    threshold: Annotated[
+        float, typer.Option(help="The guard's least margin, in g.", min=0.0)
+    ] = 0.03,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Margins against MuJoCo, and collapses with and without a guard on them."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports import stability_report  # noqa: PLC0415
+    from depal.studies.stability import stability as run  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, plot)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Stability") as progress:
+        result = run(pallets, states, seed, w, threshold, executor=executor, progress=progress)
+    _finish(stability_report(result, seed, time.perf_counter() - start), json_file, plot)
+
+
+@study.command()
 def case2(
     draws: Annotated[int, typer.Option(help="Jittered draws per layout.", min=0)] = 1_000,
     seed: Seed = 0,
@@ -223,6 +255,38 @@ def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
     with executor_for(workers, dask) as executor, progress_bar("Retrieval") as progress:
         result = run(asked, executor, progress)
     _finish(retrieval_report(result, asked, time.perf_counter() - start), json_file, plot)
+
+
+@study.command()
+def benchmark(
+    pallets: Pallets = 100,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine,layered,cubic,columns,dropped",
+    into: Annotated[
+        Path | None,
+        typer.Option(help="Write the table between the marks of this page.", show_default=False),
+    ] = None,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Every policy on every kind of pallet: actions, gap, lateness, collapses, margin, time."""
+    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
+    from depal.app.reports.benchmark import benchmark_report, write_into  # noqa: PLC0415
+    from depal.studies.benchmark import benchmark as run  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    _check_targets(json_file, None)
+    names = named_generators(generators)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Benchmark") as progress:
+        rows = run(names, pallets, seed, executor, progress)
+    if into is not None:
+        write_into(into, rows, pallets, seed)
+    _finish(benchmark_report(rows, pallets, seed, time.perf_counter() - start), json_file, None)
 
 
 @study.command()

@@ -8,6 +8,7 @@ from depal.app.reports.fig8 import fig8_report
 from depal.app.reports.fig9 import fig9_report
 from depal.app.reports.report import Report
 from depal.app.reports.retrieval import retrieval_report
+from depal.app.reports.stability import stability_report
 from depal.app.reports.table1 import table1_report
 from depal.app.reports.unload import unload_report
 
@@ -20,6 +21,7 @@ __all__ = [
     "fig8_report",
     "fig9_report",
     "retrieval_report",
+    "stability_report",
     "table1_report",
     "unload_report",
 ]

@@ -130,8 +130,8 @@ def _table(rows: Sequence[Row], asked: RetrievalAsked) -> RenderableType:
         )
     table.caption = Text(
         "minimum: proven, under the same rule of what blocks what; gap: above it, in the mean; "
-        "never: requests whose box was never free, left out. Side-only boxes are taken from the "
-        "front alone."
+        "never: requests whose box was never free; where one policy has one it is left out of both "
+        "means. Side-only boxes are taken from the front alone."
     )
     return table
 

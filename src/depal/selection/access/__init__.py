@@ -1,6 +1,7 @@
 """Beyond the paper: blocking by grasp direction, and the fewest removals, proven."""
 
 from depal.selection.access.agenda import Agenda, Errand, lateness_of, planned
+from depal.selection.access.closure import labelled
 from depal.selection.access.geometry import (
     BEFORE,
     OVER,
@@ -33,6 +34,7 @@ __all__ = [
     "crowding",
     "fewest_removals",
     "free_ways",
+    "labelled",
     "lateness_of",
     "mask_of",
     "masks",

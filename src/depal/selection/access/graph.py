@@ -16,7 +16,7 @@ from depal.selection.access.agenda import Errand, planned
 from depal.selection.access.closure import labelled
 from depal.selection.access.geometry import BEFORE, OVER, RESTS, Codes
 from depal.selection.access.removal import Removal, fewest_removals
-from depal.selection.access.ways import Way, Ways, members
+from depal.selection.access.ways import Mask, Way, Ways, members
 from depal.selection.blocking import Aim
 from depal.selection.decision import Refused
 from depal.selection.graph import BlockingGraph
@@ -56,6 +56,7 @@ class AccessGraph:
         *,
         pace: float = 1.0,
         now: float = 0.0,
+        sought: Sequence[tuple[Request, Mask]] = (),
     ) -> None:
         """The graph of boxes and the ways to take them.
 
@@ -65,7 +66,10 @@ class AccessGraph:
             codes: (slots, slots) how boxes stand to each other, see `geometry.standings`.
             pace: how long one box takes [s].
             now: the time [s since the start of the run].
+            sought: pending requests, each with the slots to empty first to find what it wants
+                (`depal.selection.hidden.sought`); they take their turn among the others.
         """
+        self._sought = tuple(sought)
         self._boxes = boxes
         self.ways = ways
         self._pace, self._now = pace, now
@@ -140,6 +144,10 @@ class AccessGraph:
             found = None if slot is None else self.removal(slot)
             if found is not None:
                 errands.append(Errand(aim.request.priority, found.boxes, _due(aim.request)))
+        errands += [
+            Errand(request.priority, boxes & self.ways.present, _due(request))
+            for request, boxes in self._sought
+        ]
         order = planned(errands, self._pace, self._now).order
         return tuple(frozenset(members(errands[number].boxes)) for number in order)
 
