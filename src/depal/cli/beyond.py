@@ -184,3 +184,47 @@ def benchmark(
     if into is not None:
         write_into(into, rows, pallets, seed)
     finish(benchmark_report(rows, pallets, seed, time.perf_counter() - start), json_file, None)
+
+
+@beyond.command()
+def learning(  # noqa: PLR0913, PLR0917 - a command's options
+    pallets: Annotated[int, typer.Option(help="How many orders are drawn.", min=1)] = 200,
+    seeds: Annotated[int, typer.Option(help="How often it is done.", min=1)] = 10,
+    w: Annotated[float, typer.Option(help="The policy's w, in [0, 1].")] = 0.5,
+    weights: Annotated[
+        str, typer.Option(help="The policy's weights of |y|, x_max - x and z; scaled to sum 1.")
+    ] = "1,2,4",
+    temperature: Annotated[float, typer.Option(help="Of the policy's choices [m].")] = 0.01,
+    requests: Annotated[int, typer.Option(help="Wanted boxes on each pallet.", min=0)] = 3,
+    generators: Annotated[
+        str, typer.Option(help="Names of generators, with commas between them.")
+    ] = "guillotine,layered,cubic,columns,dropped",
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    orders: Annotated[
+        Path | None,
+        typer.Option(help="Write the first seed's orders to this .jsonl.", show_default=False),
+    ] = None,
+    json_file: JsonFile = None,
+) -> None:
+    """Orders drawn by a known policy, and how well `depal learn` recovers its weights."""
+    from depal.app.files import checked_target  # noqa: PLC0415 - fast help
+    from depal.app.learning import recovery_report, weights_of, write_orders  # noqa: PLC0415
+    from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.studies.learning import Teacher, draw_order, recover  # noqa: PLC0415
+    from depal.studies.pallets import named_generators  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    check_targets(json_file, None)
+    checked_target(orders, "--orders")
+    names = named_generators(generators)
+    teacher = Teacher(w, weights_of(weights), temperature, requests, names)
+    start = time.perf_counter()
+    if orders is not None:
+        drawn = (draw_order(teacher, seed, index) for index in range(pallets))
+        write_orders(orders, drawn, "--orders")
+    with executor_for(workers, dask) as executor, progress_bar("Learning") as progress:
+        results = recover(teacher, pallets, range(seed, seed + seeds), executor, progress)
+    report = recovery_report(teacher, pallets, results, time.perf_counter() - start)
+    finish(report, json_file, None)

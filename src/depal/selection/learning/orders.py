@@ -40,6 +40,7 @@ class Order:
         requests: what was wanted, with the times at which that was known.
         departures: in their order; boxes may be left at the end.
         x_max: the far side of the pallet [m].
+        tolerances: how wrong the poses may be.
     """
 
     pallet: str
@@ -47,6 +48,7 @@ class Order:
     requests: tuple[Request, ...]
     departures: tuple[Departure, ...]
     x_max: float
+    tolerances: Tolerances = PERCEIVED
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,13 +137,13 @@ def features_of(centres: Array, inherited: Array, x_max: float) -> Array:
     return np.stack((inherited, np.abs(y), x_max - x, z), axis=1)
 
 
-def steps_of(order: Order, tolerances: Tolerances = PERCEIVED) -> Steps:
+def steps_of(order: Order) -> Steps:
     """The choices of a recorded order.
 
     Raises:
         PileError: the boxes cannot stand in one world, or one that left was not there.
     """
-    unloading = Unloading(order.boxes, order.requests, order.x_max, tolerances)
+    unloading = Unloading(order.boxes, order.requests, order.x_max, order.tolerances)
     choices: list[Choice] = []
     blocked: list[BoxId] = []
     forced = 0
