@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -200,6 +201,79 @@ def case2() -> Iterator[Line]:
         )
 
 
+def stability() -> Iterator[Line]:
+    """`depal study stability`: the margins beside MuJoCo, and the guard."""
+    report, _ = depal("study", "stability", "--workers", "2")
+    checks = report["checks"]
+    assert isinstance(checks, list)  # noqa: S101 - our own file
+    for check in checks:
+        yield Line(check["name"], check["allowed"], check["measured"], check["holds"])
+
+
+def retrieval() -> Iterator[Line]:
+    """`depal study retrieval`: removals of both policies beside their proven minimum."""
+    words = ("study", "retrieval", "--workers", "2", "--referee", "300")
+    full = ("--pallets", "10000", "--cell-pallets", "300")
+    kinds = "layered,cubic,columns,dropped"
+    others = ("--generators", kinds, "--pallets", "1000", "--cell-pallets", "0")
+    for report, _ in (depal(*words, *full), depal(*words, *others, "--deliveries", "dev-035")):
+        for check in report["checks"]:  # type: ignore[attr-defined]
+            yield Line(check["name"], check["allowed"], check["measured"], check["holds"])
+        for paper, access in _pairs(report["rows"]):
+            said = ", ".join(
+                f"{row['policy']} {row['actions']['mean']:.2f} (minimum {row['limit']:.2f})"
+                for row in (paper, access)
+            )
+            where = ", with clearance and reach" if paper["clearance"] else ""
+            name = f"{paper['pallets']}, {paper['side_only']:.0%} side-only{where}: actions"
+            better = access["actions"]["mean"] <= paper["actions"]["mean"]
+            yield Line(name, "access <= paper", said, better)
+
+
+def _pairs(rows: object) -> Iterator[tuple[dict[str, Any], dict[str, Any]]]:
+    """Rows two by two."""
+    assert isinstance(rows, list)  # noqa: S101 - our own file
+    yield from zip(rows[::2], rows[1::2], strict=True)
+
+
+def in_the_cell() -> Iterator[Line]:
+    """Both policies over the deliveries that ship, with physics: as safe, and sooner."""
+    runs = {}
+    for policy in ("paper", "access"):
+        kept = str(KEPT / f"{policy}-{state()}")
+        words = ("--policy", policy, "--workers", "2", "--keep", kept)
+        runs[policy], _ = depal("study", "throughput", *words)
+    before = {
+        policy: [
+            wish["boxes_before"] if wish["served"] is not None else None
+            for row in report["rows"]  # type: ignore[attr-defined]
+            for wish in row["requests"]
+        ]
+        for policy, report in runs.items()
+    }
+    both = [
+        (paper, access)
+        for paper, access in zip(before["paper"], before["access"], strict=True)
+        if paper is not None and access is not None
+    ]
+    saved = statistics.mean(paper - access for paper, access in both)
+    error = statistics.stdev(paper - access for paper, access in both) / len(both) ** 0.5
+    total: dict[str, Any] = runs["access"]["summary"]  # type: ignore[assignment]
+    counts = [total[name] for name in ("lost", "collisions", "disagreements", "placed_twice")]
+    yield Line(
+        f"--policy access, {total['runs']} real deliveries: lost; collisions; books; placed twice",
+        "0; 0; 0; 0",
+        "; ".join(map(str, counts)),
+        not any(counts),
+    )
+    yield Line(
+        f"boxes before a request that access saves in the cell ({len(both)} requests, paired)",
+        "> 0",
+        f"{saved:.2f} +- {1.96 * error:.2f}",
+        saved > 0,
+    )
+
+
 def unloading() -> Iterator[Line]:
     """`depal study unload` over the deliveries that ship."""
     report, _ = depal("study", "unload")
@@ -290,6 +364,8 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     table1,
     selection,
     case2,
+    retrieval,
+    stability,
     unloading,
     due,
     hidden,
@@ -300,6 +376,7 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     perception_normal,
     perception_hard,
     throughput,
+    in_the_cell,
     tests,
 )
 

@@ -12,7 +12,8 @@ from depal.app.run.job import run_delivery
 from depal.app.run.summary import run_report
 from depal.app.run.values import Options
 from depal.cell.departures import Fate
-from depal.domain import Request
+from depal.cell.workplace import Policy
+from depal.domain import Approach, Request
 from depal.simulation.truth_sight import SightSettings
 
 HEAVY = (((0.4, 0.0, 0.0), (0.5, 0.3, 0.3), 20.0),)
@@ -63,6 +64,25 @@ def test_a_wanted_product_comes_first_where_it_can() -> None:
     (wish,) = outcome.wishes
     assert (wish.box, wish.boxes_before) == ("b2", 0)
     assert outcome.departures[0].box == "b2"
+
+
+@pytest.mark.slow
+def test_access_takes_from_above_what_the_paper_waits_for() -> None:
+    """Two cases one behind the other, the hidden one is wanted: nothing lies on it."""
+    rows = (
+        ((0.4, 0.05, 0.0), (0.35, 0.30, 0.25), 5.0),
+        ((0.4, 0.36, 0.0), (0.35, 0.30, 0.25), 5.0),
+    )
+    first = run(rows).departures[0].gtin
+    (behind,) = {gtin(0), gtin(1)} - {first}
+    wish = Request(priority=1.0, gtin=behind)
+    paper = run(rows, wish, w=1.0)
+    access = run(rows, wish, w=1.0, policy=Policy.ACCESS)
+    assert paper.whole
+    assert access.whole
+    assert [outcome.wishes[0].boxes_before for outcome in (paper, access)] == [1, 0]
+    assert access.departures[0].grasp is Approach.VERTICAL
+    assert access.referee.collisions == ()
 
 
 @pytest.mark.slow

@@ -6,7 +6,7 @@ from depal.app.run.job import run_job
 from depal.app.run.summary import Outcome
 from depal.app.run.values import Job
 from depal.cell.files import shipped_cell
-from depal.cell.workplace import Settings
+from depal.cell.workplace import Policy, Settings
 from depal.domain import (
     EURO_PALLET,
     Delivery,
@@ -55,9 +55,10 @@ def run(
     sight: SightSettings = SHARP,
     cone: bool = True,
     w: float = 0.5,
+    policy: Policy = Policy.PAPER,
     record: Path | None = None,
 ) -> Outcome:
     """Empties a pallet of these cases."""
     layout = shipped_cell("default")
-    job = Job(layout, tiny(*cases), requests, Settings(w=w), seed, sight, cone)
+    job = Job(layout, tiny(*cases), requests, Settings(w=w, policy=policy), seed, sight, cone)
     return run_job(job, record=record)

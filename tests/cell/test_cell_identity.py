@@ -2,13 +2,23 @@
 
 import dataclasses
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.cell.identity import fits, plausible, resized, size_by_weight, weighs_like, why_not
+from depal.cell.identity import (
+    beyond_seen,
+    fits,
+    plausible,
+    size_by_weight,
+    told_size,
+    weighs_like,
+    why_not,
+)
 from depal.domain import EURO_PALLET, Approach, Delivery, DeliveryLine, Grasp, Gtin, Product
 from depal.geometry import Pose, Vector3
+from depal.motion.grasping import resized, swollen
 
 edge = st.floats(0.08, 0.6)
 sizes = st.tuples(edge, edge, edge)
@@ -89,3 +99,69 @@ def test_a_grasp_holds_the_same_face_of_a_box_of_another_size(
     still = [k for k in range(3) if k != axis]
     assert [moved[k] for k in still] == [at[k] for k in still]
     assert dataclasses.replace(grasp, box_from_flange=Pose(moved)).cups == ()
+
+
+@given(size=sizes, turned=st.booleans(), axis=st.integers(0, 1), error=st.floats(-0.08, 0.08))
+def test_a_told_box_lies_within_the_room_that_it_is_given(
+    *, size: Vector3, turned: bool, axis: int, error: float
+) -> None:
+    """Whichever end of the edge was seen wrong, and whichever way it lies where edges are equal."""
+    truth = (size[1], size[0], size[2]) if turned else size
+    seen = [*truth]
+    seen[axis] = max(seen[axis] + error, 0.05)
+    told, beyond = told_size(size, tuple(seen))  # type: ignore[arg-type]
+    off = max(abs(a - b) for a, b in zip(seen, truth, strict=True))
+    other = max(abs(a - b) for a, b in zip(seen, (truth[1], truth[0], truth[2]), strict=True))
+    if off > other:
+        return  # nobody could tell that it does not lie the other way
+    shift = abs(seen[axis] - truth[axis]) / 2  # of its middle, seen with one end wrong
+    room = (told[axis] + 2 * beyond[axis]) / 2
+    assert room >= truth[axis] / 2 + shift - 0.004 - 1e-9
+
+
+@given(sizes)
+def test_a_box_that_was_seen_right_is_given_no_room(size: Vector3) -> None:
+    """Nor is one of which all edges fit one product alone."""
+    told, beyond = told_size(size, size)
+    assert told == size
+    if abs(size[0] - size[1]) > 0.04:  # else it may lie the other way
+        assert beyond == (0.0, 0.0, 0.0)
+        assert beyond_seen(note(product(size)), size) == (0.0, 0.0, 0.0)
+
+
+def test_a_like_top_leaves_open_how_long_a_box_is() -> None:
+    """Two of its edges are those of a longer product; what it weighs may tell it is not that."""
+    delivery = note(
+        product((0.22, 0.22, 0.245), 6.4, "a"), product((0.295, 0.223, 0.248), 7.8, "b")
+    )
+    seen = (0.22, 0.22, 0.245)
+    assert beyond_seen(delivery, seen) == pytest.approx((0.075, 0.075, 0.003))
+    assert beyond_seen(delivery, seen, 7.8) == pytest.approx((0.075, 0.075, 0.003))
+    assert beyond_seen(delivery, seen, 6.4) == (0.0, 0.0, 0.0)
+
+
+@given(
+    size=sizes,
+    beyond=st.tuples(*[st.floats(0.0, 0.1)] * 3),
+    approach=st.sampled_from(Approach),
+    side=st.booleans(),
+)
+def test_what_a_held_box_may_be_lies_in_its_bulk(
+    *, size: Vector3, beyond: Vector3, approach: Approach, side: bool
+) -> None:
+    """Its held face stays where the cups are; every other face has room to be farther out."""
+    out = (np.array(size) / 2 + 0.2) * (
+        (0, 0, 1) if approach is Approach.VERTICAL else ((-1, 0, 0) if side else (0, -1, 0))
+    )
+    axis = int(np.argmax(np.abs(out)))
+    grasp = Grasp(approach, folded=False, box_from_flange=Pose.from_arrays(out, np.eye(3)), cups=())
+    held, bulk = swollen(grasp, size, beyond)
+    shift = np.array(grasp.box_from_flange.translation) - held.box_from_flange.translation
+    sign = np.sign(out[axis])
+    for k in range(3):
+        low, high = shift[k] - bulk[k] / 2, shift[k] + bulk[k] / 2
+        held_side = high if sign > 0 else -low
+        if k == axis:
+            assert held_side == pytest.approx(size[k] / 2)
+        assert max(-low, high) >= size[k] / 2 + beyond[k] - 1e-9
+        assert min(-low, high) >= size[k] / 2 - 1e-9

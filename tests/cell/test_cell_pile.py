@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.pile import LEVEL, MISSED, Deck, Pile, settled
-from depal.domain import BoxId, Detection, Gtin, Recognition
+from depal.domain import BoxId, Detection, Gtin, Perceived, Recognition
 from depal.geometry import OrientedBox
 from depal.ports import View
 
@@ -90,7 +90,7 @@ def test_of_two_things_that_could_carry_a_box_the_nearer_does() -> None:
     assert after.shape.centre[2] == pytest.approx(0.444)
 
 
-def from_cameras(taken: float, *boxes: Detection, unsized: frozenset[BoxId] = frozenset()) -> View:
+def from_cameras(taken: float, *boxes: Perceived, unsized: frozenset[BoxId] = frozenset()) -> View:
     """What a sight with a memory of its own shows."""
     return View(taken, boxes, remembered=True, unsized=unsized)
 
@@ -107,6 +107,19 @@ def test_a_box_that_only_the_last_look_has_shown_is_fresh() -> None:
     exact.see(View(0.0, (detection("b1"),)))
     exact.see(View(1.0, (detection("b1"), detection("b2", 2.0))))
     assert not exact.is_fresh(BoxId("b2"))
+
+
+@given(st.floats(0.011, 0.024), st.sampled_from((-1.0, 1.0)))
+def test_only_a_box_without_a_name_is_set_on_what_is_far_from_its_bottom(
+    gap: float, side: float
+) -> None:
+    """What carries a box may be hidden; one with a name is measured well enough to say so."""
+    pile = Pile(Deck(0.35 + side * gap, 0.0))
+    box = detection("b1")
+    pile.see(from_cameras(0.0, box))
+    assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5 + side * gap)
+    pile.see(from_cameras(1.0, Recognition(box.id, box.shape, Gtin("g"))))
+    assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5)
 
 
 @given(st.floats(-0.024, 0.024))

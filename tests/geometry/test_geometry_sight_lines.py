@@ -1,7 +1,7 @@
 """What stands between an eye and a point, against many points along the line."""
 
 import numpy as np
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from depal.geometry import Blockers, OrientedBox
@@ -11,6 +11,8 @@ points = st.tuples(*[st.floats(-2, 2)] * 3)
 
 
 @given(points, points, points, points, st.floats(0.05, 0.5))
+@example((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.1, 0.0), (0.0, 0.1, 0.0), 0.2)
+@example((-1.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.6, 0.0), (0.0, 0.6, 0.0), 0.2)
 def test_a_line_hits_a_capsule_exactly_when_a_point_of_it_lies_inside(
     start: Point, end: Point, one: Point, other: Point, radius: float
 ) -> None:

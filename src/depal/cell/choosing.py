@@ -1,13 +1,18 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
+from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Perceived, Recognition
-from depal.selection import BlockingGraph, Decision, Refused, ScoreRule, select
+from depal.cell.seeking import searches
+from depal.cell.standing import Guard, Standing
+from depal.cell.workplace import Policy, Workplace
+from depal.domain import BoxId, Perceived, Recognition, Request
+from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
+from depal.selection.access import NO_WAY, AccessGraph
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,8 +43,10 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     Returns:
         The choice; its grasp is a planned pick.
     """
-    graph = BlockingGraph(work.pile.boxes)
     wishes, rule = work.wishes.open(work.now), rule_of(work)
+    graph = blocking_of(work, desk, wishes)
+    standing = Standing(work, graph)
+    guard = Guard(standing) if work.settings.guard else None
     before = desk.planner.planned
     waiting: set[BoxId] = set()
 
@@ -51,15 +58,44 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         if doubts is not None and box.id not in waiting:
             waiting.add(box.id)
             return Refused(doubts)
-        plan = desk.picking.try_pick(box)
-        return Refused(plan) if isinstance(plan, str) else plan
+        if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
+            return Refused(NO_WAY)
+        plan = (guard and guard.kept(box)) or desk.picking.try_pick(box)
+        if isinstance(plan, str):
+            return Refused(plan)
+        return plan if guard is None else guard.judged(box, plan)
 
     decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and waiting:
         decision = select(graph, wishes, rule, grasp_for)
+    if decision.target is None and guard is not None and guard.force():
+        decision = select(graph, wishes, rule, grasp_for)
     chosen = decision.target
+    if chosen is not None:
+        decision = replace(decision, certificate=standing.without(chosen.id))
     doubts = why_later(work, chosen) if chosen is not None else None
     return Choice(decision, desk.planner.planned - before, doubts)
+
+
+def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:
+    """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
+    graph = BlockingGraph(work.pile.boxes)
+    if work.settings.policy is Policy.PAPER:
+        return graph
+    kinematics = desk.planner.mover.body.kinematics
+    ways, codes = ways_in_cell(graph, work.layout, kinematics, desk.picking.offered)
+    found = searches(work, graph, ways, wishes)
+    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now, sought=found)
+
+
+def pace_of(work: Workplace) -> float:
+    """How long one box takes, by what has left so far [s]."""
+    left = len(work.pile.taken)
+    return work.now / left if left else PACE
+
+
+PACE = 8.0
+"""How long a box takes before one has left [s]; `depal study throughput` measures it."""
 
 
 def why_left(work: Workplace, box: Perceived) -> str | None:

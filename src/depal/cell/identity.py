@@ -1,12 +1,11 @@
 """Whether a box can be the product that somebody says it is: by its size and by what it weighs."""
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 
-from depal.domain import Approach, Delivery, Grasp, Product
-from depal.geometry import Pose, Vector3
+from depal.domain import Delivery, Product
+from depal.geometry import Vector3
 
 MASS_SHARE, MASS_SPARE = 0.10, 0.2
 """A box weighs what its product does within this share and so much more [kg]."""
@@ -15,6 +14,12 @@ SIZE_SPARE = 0.03
 """A measured edge is that of the product within this [m]."""
 
 EDGES = 3
+
+ALIKE = 0.015
+"""Two ways to turn a product fit equally well when they differ by less [m]."""
+
+NOTICED = 0.004
+"""An edge that was seen wrong by less leaves no doubt where the box is [m]."""
 
 
 def why_not(
@@ -85,33 +90,66 @@ def size_by_weight(delivery: Delivery, size: Vector3, mass: float) -> Vector3 | 
     return (a, b, c) if np.ptp(sizes, axis=0).max() < SIZE_SPARE / 2 else None
 
 
+def beyond_seen(delivery: Delivery, size: Vector3, mass: float | None = None) -> Vector3:
+    """How much longer a box may be than it was seen, at either end of its axes [m].
+
+    Of two products with like tops the wrong one is soon believed, and boxes that stand flush are
+    seen as one: an edge counts as wrong where the other two are those of a product.
+
+    Args:
+        delivery: what it can be.
+        size: as seen, along the box's own axes [m].
+        mass: as felt [kg]; None where it was not weighed.
+    """
+    longest = np.array(size)
+    for product in plausible(delivery, size, unsized=True):
+        if mass is None or weighs_like(product, mass):
+            for way in _ways(product.size):
+                off = sorted(abs(a - b) for a, b in zip(way, size, strict=True))
+                if off[1] <= SIZE_SPARE:
+                    longest = np.maximum(longest, way)
+    a, b, c = (longest - size).tolist()
+    return (a, b, c)
+
+
+def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:
+    """The size of a box by what it turned out to be, and how much farther out it may reach.
+
+    An edge that was seen wrong leaves open which of its two ends was: either may be.
+
+    Args:
+        told: the product's size [m].
+        seen: as it was seen, along the box's own axes [m].
+
+    Returns:
+        The true size along the same axes, and by how much the box may stick out of it at either
+        end of each axis [m].
+    """
+    ways = _ways(told)
+    off = [max(abs(a - b) for a, b in zip(way, seen, strict=True)) for way in ways]
+    best = min(range(2), key=lambda k: (off[k], k))
+    widest = np.array(ways[best])
+    for way, misfit in zip(ways, off, strict=True):
+        if misfit < off[best] + ALIKE:
+            wrong = np.array(way) - np.array(seen)
+            wrong[np.abs(wrong) < NOTICED] = 0.0
+            widest = np.maximum(widest, way + np.abs(wrong))
+    a, b, c = ((widest - ways[best]) / 2).tolist()
+    return ways[best], (a, b, c)
+
+
+def _ways(size: Vector3) -> tuple[Vector3, Vector3]:
+    """An upright case's size along the axes that it may be turned to."""
+    a, b, c = size
+    return (a, b, c), (b, a, c)
+
+
 def _turned(size: Vector3, seen: Vector3) -> Vector3 | None:
     """An upright case's size along the axes of a box of which two edges are seen so."""
-    a, b, c = size
-    ways = [(a, b, c), (b, a, c)]
+    ways = _ways(size)
     off = [sorted(abs(p - q) for p, q in zip(way, seen, strict=True))[1] for way in ways]
     best = min(range(2), key=lambda k: (off[k], k))
     return ways[best] if off[best] <= SIZE_SPARE else None
-
-
-def resized(grasp: Grasp, old: Vector3, new: Vector3) -> Grasp:
-    """A grasp of a box of which somebody has told the true size: the held face stays in place.
-
-    Args:
-        grasp: as it was planned.
-        old: the size that was believed [m].
-        new: the true one, along the same axes [m].
-    """
-    more = (np.array(new) - np.array(old)) / 2
-    at = np.array(grasp.box_from_flange.translation)
-    if grasp.approach is Approach.HORIZONTAL:
-        axis = int(np.argmax(np.abs(at[:2]) - np.array(old[:2]) / 2))
-    else:
-        axis = 2
-    shift = np.zeros(3)
-    shift[axis] = np.sign(at[axis]) * more[axis]
-    pose = Pose.from_arrays(at + shift, grasp.box_from_flange.rotation)
-    return replace(grasp, box_from_flange=pose)
 
 
 def _edges(size: Vector3) -> str:

@@ -23,8 +23,8 @@ LEVEL = 0.010
 """A box whose bottom is this near to what could carry it stands on it [m]."""
 
 COARSE = 0.025
-"""The same for a sight that measures with cameras: distances are the worst of what it measures [m].
-"""
+"""The same for a box without a name in a sight that measures with cameras: of such a box often the
+top alone was seen, at a distance that is the worst of what cameras measure [m]."""
 
 OVER = 0.015
 """Boxes that overlap on the ground by more than this may carry one another [m]."""
@@ -210,7 +210,8 @@ def settled(
         boxes: upright, in the cell frame.
         deck: what the lowest stand on.
         unsized: boxes of which an edge is a guess: their faces stay where they were seen.
-        level: a box whose bottom is this near to what could carry it stands on it [m].
+        level: a box without a name stands on what is this near to its bottom; one with a name
+            is measured better [m].
 
     Returns:
         The same boxes in the same order.
@@ -225,7 +226,9 @@ def settled(
         yaw = _yaw(box.shape) - (away if abs(away) < SQUARE else 0.0)
         bottom = _bottom(box.shape)
         if box.id not in unsized:
-            bottom = _carried(box.shape, [other.shape for other in done.values()], deck, level)
+            near = LEVEL if isinstance(box, Recognition) else level
+            below = [other.shape for other in done.values()]
+            bottom = _carried(box.shape, below, deck, near)
         x, y, _ = centre
         pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
         done[box.id] = replace(box, shape=OrientedBox(pose, size))

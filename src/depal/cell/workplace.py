@@ -67,6 +67,7 @@ class Policy(Enum):
     """Which boxes may be taken."""
 
     PAPER = "paper"
+    ACCESS = "access"
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,12 +79,14 @@ class Settings:
         policy: which boxes may be taken.
         speed: share of the arm's full speed, in (0, 1].
         charges: of simulated time.
+        guard: whether a box waits that would leave a pile with too little margin.
     """
 
     w: float = 0.5
     policy: Policy = Policy.PAPER
     speed: float = 1.0
     charges: Charges = field(default_factory=Charges)
+    guard: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,12 +98,14 @@ class Held:
         grasp: how it is held.
         size: of the box along its own axes [m].
         mass: as felt at the flange [kg].
+        beyond: how much longer the box may be along its axes, at either end [m].
     """
 
     box: BoxId
     grasp: Grasp
     size: Vector3
     mass: float
+    beyond: Vector3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,9 +231,9 @@ class Workplace:
         """Set once a box has left the pallet, or never will, and the view of the pile is clear."""
         return self._gone.setdefault(box, asyncio.Event())
 
-    def lifted(self, box: BoxId, grasp: Grasp, size: Vector3, mass: float) -> None:
+    def lifted(self, held: Held) -> None:
         """The arm has lifted a box off the pallet."""
-        self.held = Held(box, grasp, size, mass)
+        box, self.held = held.box, held
         self.pile.take(box, self.now)
         self.departures.leaves(box, self.now)
         product = self.product_of(box)

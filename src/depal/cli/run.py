@@ -20,11 +20,24 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
+    note: Annotated[
+        str,
+        typer.Option(
+            help="The note that the cell is told instead: FILE or FILE#ID, JSON or CSV.",
+            show_default=False,
+        ),
+    ] = "",
     requests: Annotated[
         str, typer.Option(help="A file of requests, or none.", show_default=False)
     ] = "",
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
-    policy: Annotated[str, typer.Option(help="Which boxes may be taken: paper.")] = "paper",
+    policy: Annotated[
+        str, typer.Option(help="Which boxes may be taken: paper, or access.")
+    ] = "paper",
+    guard: Annotated[  # noqa: FBT002 - a flag
+        bool,
+        typer.Option("--guard", help="Let boxes wait whose removal leaves a pile with < 0.03 g."),
+    ] = False,
     perception: Annotated[
         str, typer.Option(help="Where boxes come from: camera, or truth.")
     ] = "camera",
@@ -48,9 +61,11 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     options = Options(
         delivery=delivery,
         cell=cell,
+        note=note,
         requests=requests,
         w=w,
         policy=policy,
+        guard=guard,
         perception=perception,
         severity=severity,
         seed=seed,

@@ -12,12 +12,12 @@ from depal.errors import SettingError
 if TYPE_CHECKING:
     from depal.app.reports import Report
 
-study = typer.Typer(help="The paper's case studies.", no_args_is_help=True)
+study = typer.Typer(help="The paper's case studies, and beyond.", no_args_is_help=True)
 
 Pallets = Annotated[int, typer.Option(help="How many random pallets.", min=1)]
 
 
-def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None:
+def finish(report: "Report", json_file: Path | None, plot: Path | None) -> None:
     """Prints, writes and draws a report; exit status 1 where something must hold and does not."""
     from depal.app.files import write_json  # noqa: PLC0415 - fast help
     from depal.studies.drawing import save_figure  # noqa: PLC0415
@@ -34,7 +34,8 @@ def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None
         raise typer.Exit(1)
 
 
-def _check_targets(json_file: Path | None, plot: Path | None) -> None:
+def check_targets(json_file: Path | None, plot: Path | None) -> None:
+    """Refuses files that cannot be written, before anything is worked on."""
     from depal.app.files import checked_targets  # noqa: PLC0415 - fast help
 
     checked_targets(json_file, plot)
@@ -59,7 +60,7 @@ def table1(
     from depal.studies.sweep import executor_for  # noqa: PLC0415
     from depal.studies.table1 import table1 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     names = named_generators(generators)
     if plot is not None and len(names) > 1:
         what = f"a picture shows one generator, {len(names)} are named"
@@ -70,7 +71,7 @@ def table1(
         for name in names:
             with progress_bar(f"Table I, {name}") as progress:
                 results.append(run(pallets, seed, name, executor=executor, progress=progress))
-    _finish(table1_report(results, time.perf_counter() - start), json_file, plot)
+    finish(table1_report(results, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -88,11 +89,11 @@ def fig8(
     from depal.studies.sweep import executor_for  # noqa: PLC0415
     from depal.studies.table1 import table1 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Fig. 8") as progress:
         result = run(pallets, seed, executor=executor, progress=progress)
-    _finish(fig8_report(result, time.perf_counter() - start), json_file, plot)
+    finish(fig8_report(result, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -111,11 +112,11 @@ def fig9(
     from depal.studies.fig9 import fig9 as run  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Fig. 9") as progress:
         result = run(pallets, seed, w, executor=executor, progress=progress)
-    _finish(fig9_report(result, pallets, seed, time.perf_counter() - start), json_file, plot)
+    finish(fig9_report(result, pallets, seed, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -131,11 +132,11 @@ def case2(
     from depal.app.reports import case2_report  # noqa: PLC0415
     from depal.studies.case2 import case2 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with progress_bar("Case study 2") as progress:
         results = run(draws=draws, seed=seed, w=w, progress=progress)
-    _finish(case2_report(results, w, seed, time.perf_counter() - start), json_file, plot)
+    finish(case2_report(results, w, seed, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -143,8 +144,8 @@ def fig4(json_file: JsonFile = None, plot: PlotFile = None) -> None:
     """Fig. 4: the priority h over the pallet."""
     from depal.app.reports import fig4_report  # noqa: PLC0415 - fast help
 
-    _check_targets(json_file, plot)
-    _finish(fig4_report(), json_file, plot)
+    check_targets(json_file, plot)
+    finish(fig4_report(), json_file, plot)
 
 
 @study.command()
@@ -152,8 +153,8 @@ def fig5(json_file: JsonFile = None, plot: PlotFile = None) -> None:
     """Fig. 5: the graph G over a group of boxes, and T of a requested one."""
     from depal.app.reports import fig5_report  # noqa: PLC0415 - fast help
 
-    _check_targets(json_file, plot)
-    _finish(fig5_report(), json_file, plot)
+    check_targets(json_file, plot)
+    finish(fig5_report(), json_file, plot)
 
 
 @study.command()
@@ -173,115 +174,11 @@ def unload(
     from depal.app.reports import unload_report  # noqa: PLC0415
     from depal.app.unload import unload_all  # noqa: PLC0415
 
-    _check_targets(json_file, None)
+    check_targets(json_file, None)
     start = time.perf_counter()
     with progress_bar("Unloading") as progress:
         results = unload_all(deliveries, requests, w, progress)
-    _finish(unload_report(results, w, time.perf_counter() - start), json_file, None)
-
-
-@study.command()
-def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
-    pallets: Pallets = 1_000,
-    generators: Annotated[
-        str, typer.Option(help="Names of generators, with commas between them.")
-    ] = "guillotine",
-    side_only: Annotated[
-        str, typer.Option(help="Shares of boxes that only a side grasp takes, with commas.")
-    ] = "0,0.25,0.5,0.75,1",
-    cell_pallets: Annotated[
-        int, typer.Option(help="So many of them also with the tool's clearance and reach.", min=0)
-    ] = 100,
-    deliveries: Annotated[
-        str,
-        typer.Option(help="A file of deliveries, FILE#ID for one of them; else those shipped."),
-    ] = "",
-    cell: Annotated[
-        str, typer.Option(help="A cell file, or the name of one that ships.")
-    ] = "default",
-    referee: Annotated[
-        int, typer.Option(help="So many of each are proven again by another program.", min=0)
-    ] = 100,
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-    plot: PlotFile = None,
-) -> None:
-    """Removals before a requested box: the paper's rule and access, beside the proven minimum."""
-    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports import retrieval_report  # noqa: PLC0415
-    from depal.app.retrieval import RetrievalAsked  # noqa: PLC0415
-    from depal.app.retrieval import retrieval as run  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, plot)
-    asked = RetrievalAsked(
-        pallets, generators, side_only, cell_pallets, deliveries, cell, referee, seed
-    )
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Retrieval") as progress:
-        result = run(asked, executor, progress)
-    _finish(retrieval_report(result, asked, time.perf_counter() - start), json_file, plot)
-
-
-@study.command()
-def due(
-    pallets: Pallets = 100,
-    small: Annotated[
-        int, typer.Option(help="So many of at most ten boxes, beside the exact optimum.", min=0)
-    ] = 50,
-    generators: Annotated[
-        str, typer.Option(help="Names of generators, with commas between them.")
-    ] = "guillotine,dropped",
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-    plot: PlotFile = None,
-) -> None:
-    """Several requests with due times: weighted lateness by the paper's rule and by access."""
-    from depal.app.due import due as run  # noqa: PLC0415 - fast help
-    from depal.app.progress import progress_bar  # noqa: PLC0415
-    from depal.app.reports import due_report  # noqa: PLC0415
-    from depal.studies.pallets import named_generators  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, plot)
-    names = named_generators(generators)
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Due times") as progress:
-        rows = run(names, pallets, small, seed, executor, progress)
-    report = due_report(rows, pallets, small, seed, time.perf_counter() - start)
-    _finish(report, json_file, plot)
-
-
-@study.command()
-def hidden(
-    pallets: Pallets = 50,
-    generators: Annotated[
-        str, typer.Option(help="Names of generators, with commas between them.")
-    ] = "guillotine,layered,cubic,columns,dropped",
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-    plot: PlotFile = None,
-) -> None:
-    """A box that nobody has seen is requested: the paper's rule waits, access searches."""
-    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports import hidden_report  # noqa: PLC0415
-    from depal.studies.hidden import hidden_rows  # noqa: PLC0415
-    from depal.studies.pallets import named_generators  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, plot)
-    names = named_generators(generators)
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Hidden boxes") as progress:
-        rows = hidden_rows(names, pallets, seed, executor, progress)
-    report = hidden_report(rows, pallets, seed, time.perf_counter() - start)
-    _finish(report, json_file, plot)
+    finish(unload_report(results, w, time.perf_counter() - start), json_file, None)
 
 
 @study.command()
@@ -306,6 +203,9 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     severity: Annotated[
         str, typer.Option(help="How far cameras and prints are from ideal.")
     ] = "normal",
+    policy: Annotated[
+        str, typer.Option(help="Which boxes may be taken: paper, or access.")
+    ] = "paper",
     workers: Workers = 1,
     dask: Dask = None,
     keep: Annotated[
@@ -324,9 +224,9 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.app.throughput import throughput as run  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
-    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity)
+    check_targets(json_file, plot)
+    asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity, policy)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
         result = run(asked, keep, executor, progress)
-    _finish(throughput_report(result, asked, time.perf_counter() - start), json_file, plot)
+    finish(throughput_report(result, asked, time.perf_counter() - start), json_file, plot)

@@ -86,6 +86,8 @@ class Name:
         score: how well picture and print agree, in [0, 1].
         certain: whether it may be believed: every rival is excluded, siblings too.
         quarter: turns by 90 degrees clockwise of the print as seen; tops alone have other than 0.
+        odds: that it is no other product's, unknown siblings included [logarithm].
+        rivals: products that the face does not exclude.
     """
 
     gtin: Gtin
@@ -93,6 +95,8 @@ class Name:
     score: float
     certain: bool
     quarter: int = 0
+    odds: float = 0.0
+    rivals: tuple[Gtin, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from depal.perception.faces import Errors, Face, Facing, Name
 from depal.perception.recognition import Gallery, identify
-from depal.perception.recognition.identity import Identity
+from depal.perception.recognition.identity import SIZES, Identity
 from depal.perception.recognition.patches import Patch
 from depal.perception.recognition.prints import Print
 from depal.perception.recognition.rectifying import best_view, rectified
@@ -81,7 +81,11 @@ def located(
     if identity is not None and gallery is not None:
         face = replace(face, name=identity.name)
         if identity.name.score > RESEMBLES:
+            before = face.size
             face, belief, patch = _by_print(face, belief, patch, frames, identity, gallery)
+            if _apart(before, face.size) > SIZES:
+                again = identify(patch, gallery)
+                face = face if again is None else replace(face, name=again.name)
     belief += (sides if patch is first else Sides.of(patch)).told(belief)
     face, belief = _moved(face, belief)
     sway = np.zeros(7)

@@ -1,5 +1,6 @@
 """Which of many rectangles are faces: the set without overlap that is most likely as a whole."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -7,6 +8,7 @@ import numpy.typing as npt
 from scipy.optimize import Bounds, LinearConstraint, milp
 from scipy.sparse import csr_array
 
+from depal.geometry import loop_kernel
 from depal.perception.faces import Raster, Rectangle
 
 Floats = npt.NDArray[np.float64]
@@ -42,7 +44,7 @@ def packed(
     if not useful.size:
         return []
     inside = _inside([rectangles[index] for index in useful.tolist()], raster)
-    shared = np.unique(inside[inside.sum(axis=1) > 1], axis=0)
+    shared = _different(inside[inside.sum(axis=1) > 1])
     if not len(shared):
         return [int(index) for index in useful]
     result = milp(
@@ -66,20 +68,51 @@ def _inside(rectangles: Sequence[Rectangle], raster: Raster | None) -> Flags:
     reach = np.hypot(halves[:, 0], halves[:, 1]).max()
     lower, upper = middles.min(axis=0) - reach, middles.max(axis=0) + reach
     u, v = (np.arange(a, b, GRID) for a, b in zip(lower, upper, strict=True))
-    points = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 1, 2)
-    away = points - middles
-    c, s = np.cos(turns), np.sin(turns)
-    along = np.abs(away[..., 0] * c + away[..., 1] * s)
-    across = np.abs(away[..., 1] * c - away[..., 0] * s)
-    inside = (along < halves[:, 0]) & (across < halves[:, 1])
-    if raster is None:
-        return np.asarray(inside)
-    height, width = raster.depth.shape
-    rows = np.clip(np.round(points[:, 0, 1] / raster.step).astype(int), 0, height - 1)
-    columns = np.clip(np.round(points[:, 0, 0] / raster.step).astype(int), 0, width - 1)
-    before = np.array([each.depth for each in rectangles]) - raster.depth[rows, columns][:, None]
-    with np.errstate(invalid="ignore"):
-        return np.asarray(inside & ~(before > HIDES))
+    inside = np.zeros((len(v), len(u), len(rectangles)), dtype=np.bool_)
+    _cover(u, v, middles, halves, np.column_stack((np.cos(turns), np.sin(turns))), inside)
+    if raster is not None:
+        height, width = raster.depth.shape
+        rows = np.clip(np.round(v / raster.step).astype(int), 0, height - 1)
+        columns = np.clip(np.round(u / raster.step).astype(int), 0, width - 1)
+        depths = np.array([each.depth for each in rectangles])
+        with np.errstate(invalid="ignore"):
+            inside &= ~(depths - raster.depth[np.ix_(rows, columns)][..., None] > HIDES)
+    return np.asarray(inside.reshape(-1, len(rectangles)))
+
+
+@loop_kernel
+def _cover(
+    u: Floats, v: Floats, middles: Floats, halves: Floats, turns: Floats, inside: Flags
+) -> None:
+    """Marks the points of a grid that lie inside rectangles.
+
+    Args:
+        u: (w,) of the grid's columns [m].
+        v: (h,) of its rows [m].
+        middles: (n, 2) of the rectangles [m].
+        halves: (n, 2) half their width and height [m].
+        turns: (n, 2) cosine and sine of their turns.
+        inside: (h, w, n) false at first; updated.
+    """
+    for n in range(middles.shape[0]):
+        c, s = turns[n, 0], turns[n, 1]
+        reach = math.hypot(halves[n, 0], halves[n, 1])
+        for i in range(v.shape[0]):
+            y = v[i] - middles[n, 1]
+            if abs(y) > reach:
+                continue
+            for j in range(u.shape[0]):
+                x = u[j] - middles[n, 0]
+                if abs(x * c + y * s) < halves[n, 0] and abs(y * c - x * s) < halves[n, 1]:
+                    inside[i, j, n] = True
+
+
+def _different(rows: Flags) -> Flags:
+    """Each row once, in order."""
+    bits = np.packbits(rows, axis=1)
+    every = b"".join(sorted({row.tobytes() for row in bits}))
+    once = np.frombuffer(every, dtype=np.uint8).reshape(-1, bits.shape[1])
+    return np.unpackbits(once, axis=1, count=rows.shape[1]).astype(np.bool_)
 
 
 def _greedy(shared: Flags, values: Floats, useful: npt.NDArray[np.intp]) -> list[int]:

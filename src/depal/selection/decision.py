@@ -14,6 +14,7 @@ from depal.selection.graph import Blocker
 from depal.selection.links import Array, Indices
 from depal.selection.relations import Relation
 from depal.selection.score import ScoreRule
+from depal.selection.stability.certificate import Certificate
 
 G = TypeVar("G")
 
@@ -99,6 +100,7 @@ class Decision(Generic[G]):
         boxes: (slots,) the perceived box of each slot, None where it is empty.
         blocker_table: offsets, blockers and relations by slot.
         refusals: why boxes that nothing blocks could not be grasped, by slot.
+        certificate: how firmly the pile stands that the target leaves, where that was asked.
     """
 
     outcome: Outcome
@@ -112,6 +114,7 @@ class Decision(Generic[G]):
     boxes: tuple[Perceived | None, ...] = field(repr=False)
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
+    certificate: Certificate | None = None
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:

@@ -1,5 +1,7 @@
 """The ways that geometry leaves, on stacks drawn at random and on a bridge."""
 
+from random import Random
+
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
@@ -7,7 +9,7 @@ from hypothesis import strategies as st
 from depal.domain import Approach, BoxId, Detection
 from depal.geometry import OrientedBox, prisms_of
 from depal.selection import EXACT, BlockingGraph
-from depal.selection.access import crowding, fewest_removals, free_ways, masks
+from depal.selection.access import crowding, fewest_removals, free_ways, masks, members
 
 VERTICAL, HORIZONTAL = Approach.VERTICAL, Approach.HORIZONTAL
 
@@ -51,6 +53,21 @@ def test_a_box_with_nothing_on_it_leaves_upwards_whatever_stands_before_it() -> 
     ways = free_ways(prisms_of(boxes), EXACT)
     assert ways.free() == 0b11
     assert [way.approach for way in ways.of[1]] == [VERTICAL]
+
+
+@given(grids(), st.randoms(use_true_random=False))
+def test_the_order_of_the_boxes_changes_nothing(boxes: list[OrientedBox], chance: Random) -> None:
+    """Whoever is named first, the same boxes block the same."""
+    order = list(range(len(boxes)))
+    chance.shuffle(order)
+    ways = free_ways(prisms_of(boxes), EXACT)
+    mixed = free_ways(prisms_of(boxes[k] for k in order), EXACT)
+    for place, k in enumerate(order):
+        one = {(w.approach, frozenset(members(w.blockers))) for w in ways.of[k]}
+        other = {
+            (w.approach, frozenset(order[b] for b in members(w.blockers))) for w in mixed.of[place]
+        }
+        assert one == other
 
 
 def test_a_box_under_a_bridge_leaves_forwards() -> None:

@@ -10,6 +10,7 @@ from depal.app.reports.fig9 import fig9_report
 from depal.app.reports.hidden import hidden_report
 from depal.app.reports.report import Report
 from depal.app.reports.retrieval import retrieval_report
+from depal.app.reports.stability import stability_report
 from depal.app.reports.table1 import table1_report
 from depal.app.reports.unload import unload_report
 
@@ -24,6 +25,7 @@ __all__ = [
     "fig9_report",
     "hidden_report",
     "retrieval_report",
+    "stability_report",
     "table1_report",
     "unload_report",
 ]

@@ -102,7 +102,7 @@ def camera_sight(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
     Raises:
         FrameError: a camera cannot be calibrated.
     """
-    layout, lines = job.layout, job.delivery.lines
+    layout, lines = job.layout, job.told.lines
     calibrations = [
         _calibrated(layout, mount, camera.frame(clock.now()))
         for mount, camera in zip(layout.cameras, cell.cameras, strict=True)

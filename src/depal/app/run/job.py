@@ -85,13 +85,14 @@ def prepared(options: Options) -> Job:
     perception = one_of("--perception", options.perception, PERCEPTIONS)
     severity = Severity(one_of("--severity", options.severity, [each.value for each in Severity]))
     layout = cell_of(options.cell)
-    delivery, requests = _delivery_and_requests(options)
-    findings = refuse_what_cannot_work(layout, delivery)
+    delivery, note, requests = _delivery_and_requests(options)
+    findings = refuse_what_cannot_work(layout, delivery if note is None else note)
     impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
     settings = Settings(
         w=checked_share("--w", options.w),
         policy=policy_of(options.policy),
         speed=checked_speed(options.speed),
+        guard=options.guard,
     )
     recognised = SightSettings(unrecognised=0.0) if options.delivery == CASE2 else SightSettings()
     return Job(
@@ -106,19 +107,23 @@ def prepared(options: Options) -> Job:
         perception,
         severity,
         case2_names() if options.delivery == CASE2 else (),
+        note,
     )
 
 
-def _delivery_and_requests(options: Options) -> tuple[Delivery, tuple[Request, ...]]:
+def _delivery_and_requests(
+    options: Options,
+) -> tuple[Delivery, Delivery | None, tuple[Request, ...]]:
+    note = read_delivery(options.note) if options.note else None
     if options.delivery == CASE2:
         delivery, requests = case2_delivery(), case2_requests()
     else:
         delivery, requests = read_delivery(options.delivery or DEFAULT), ()
     if options.requests == NONE:
-        return delivery, ()
-    if options.requests:
-        return delivery, read_requests(Path(options.requests), delivery)
-    return delivery, requests
+        requests = ()
+    elif options.requests:
+        requests = read_requests(Path(options.requests), note or delivery)
+    return delivery, note, requests
 
 
 def seeing_of(job: Job, cell: SimulatedCell, clock: Clock) -> Sight:
@@ -165,12 +170,12 @@ async def _run(
         job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity
     )
     places = by_storage(job.layout.places, without=job.layout.aside)
-    store.seed_places([job.delivery], places, seed=job.seed)
+    store.seed_places([job.told], places, seed=job.seed)
     times = Timekeeper(clock)
     sight = seeing(job, cell, clock)
     ports = timed(_ports(cell, store, sight, clock), times)
     questions = Questions(ports.person, clock)
-    work = Workplace(job.layout, job.delivery, ports, job.settings, questions, job.impossible)
+    work = Workplace(job.layout, job.told, ports, job.settings, questions, job.impossible)
     planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
     if isinstance(sight, CameraSight):
@@ -180,7 +185,7 @@ async def _run(
     controller = Controller(work, desk, notes, tasks, keeper.journal)
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
-    view = LiveView(work, len(job.delivery.boxes))
+    view = LiveView(work, len(job.told.boxes))
     view.listen_to(notes)
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
     scores = ScoreKeeper(work, lambda: sight.frames if isinstance(sight, CameraSight) else ())

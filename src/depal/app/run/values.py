@@ -22,9 +22,11 @@ class Options:
     Attributes:
         delivery: a reference, "case2", or "" for the one that is run by default.
         cell: a cell file or the name of one that ships.
+        note: what the cell is told instead of the delivery's own note; "" for that.
         requests: a file of requests, "none", or "" for what the delivery brings.
         w: the weight of Eq. (3).
         policy: which boxes may be taken.
+        guard: whether a box waits that would leave a pile with too little margin.
         perception: where boxes come from.
         severity: how far cameras and boxes are from ideal.
         seed: of every random number.
@@ -35,9 +37,11 @@ class Options:
 
     delivery: str = ""
     cell: str = "default"
+    note: str = ""
     requests: str = ""
     w: float = 0.5
     policy: str = "paper"
+    guard: bool = False
     perception: str = "truth"
     severity: str = "normal"
     seed: int = 0
@@ -62,6 +66,7 @@ class Job:
         named: names that boxes get by where they stand, in the cell frame [m].
         cone: whether motions respect the suction's limits.
         impossible: products that the arm cannot handle, and why; their cases go to a person.
+        note: what the cell is told instead of the delivery's own note.
     """
 
     layout: CellLayout
@@ -75,3 +80,9 @@ class Job:
     perception: str = TRUTH
     severity: Severity = Severity.NORMAL
     named: tuple[tuple[BoxId, Vector3], ...] = ()
+    note: Delivery | None = None
+
+    @property
+    def told(self) -> Delivery:
+        """What the cell and the store know of the delivery: true or not."""
+        return self.delivery if self.note is None else self.note

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from depal.app.run.inputs import cell_of, one_of, refuse_what_cannot_work
+from depal.app.run.inputs import cell_of, one_of, policy_of, refuse_what_cannot_work
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job
 from depal.app.unload import deliveries_of
-from depal.cell.workplace import Settings
+from depal.cell.workplace import Policy, Settings
 from depal.domain import checked_share
 from depal.errors import SettingError
 from depal.logistics.store import random_requests
@@ -25,6 +25,7 @@ class Asked:
         seed: the first one.
         perception: where boxes come from: camera or truth.
         severity: how far cameras and boxes are from ideal.
+        policy: which boxes may be taken.
     """
 
     deliveries: str = ""
@@ -35,6 +36,7 @@ class Asked:
     seed: int = 0
     perception: str = TRUTH
     severity: str = Severity.NORMAL.value
+    policy: str = Policy.PAPER.value
 
     def jobs(self) -> list[Job]:
         """Every run, delivery by delivery.
@@ -42,7 +44,7 @@ class Asked:
         Raises:
             InputError: something cannot be used; nothing has run.
         """
-        settings = Settings(w=checked_share("--w", self.w))
+        settings = Settings(w=checked_share("--w", self.w), policy=policy_of(self.policy))
         for option, number, least in (
             ("--seeds", self.seeds, 1),
             ("--requests-per-delivery", self.requests, 0),

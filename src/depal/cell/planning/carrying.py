@@ -63,7 +63,8 @@ class Carrying:
         return plan
 
     def _load_of(self, box: BoxId) -> Load | None:
-        return load_of(box, self._work, self._promises.pick_of(box))
+        load = load_of(box, self._work, self._promises.pick_of(box))
+        return None if load is None else load.bulky
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
         """Held another way it may fit: the first way that has room somewhere."""

@@ -29,12 +29,13 @@ def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
         mass = _felt(held, work)
         if plan is not None and stands_at(here, plan.pick.lift.path[-1]):
             out = plan.pick.out
-            return Load(box, held.grasp, held.size, mass, (out,), out.path[-1])
-        return Load(box, held.grasp, held.size, mass, (), here)
+            return Load(box, held.grasp, held.size, mass, (out,), out.path[-1], held.beyond)
+        return Load(box, held.grasp, held.size, mass, (), here, held.beyond)
     if plan is None:
         return None
     out = plan.pick.out
-    return Load(box, plan.grasp, plan.box.shape.size, plan.mass, (out,), out.path[-1])
+    size = plan.box.shape.size
+    return Load(box, plan.grasp, size, plan.mass, (out,), out.path[-1], plan.beyond)
 
 
 def _felt(held: Held, work: Workplace) -> float:

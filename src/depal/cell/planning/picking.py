@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from depal.cell.identity import beyond_seen
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
 from depal.cell.planning.planner import Planner
@@ -14,7 +15,8 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
-from depal.motion.grasping import Holding, grasps
+from depal.geometry import Vector3
+from depal.motion.grasping import EXACT, Holding, grasps
 from depal.motion.moves import OPEN, NoMotion, Part, Pick
 from depal.ports import Trajectory
 
@@ -30,6 +32,7 @@ class Picking:
         self._work = work
         self._planner = planner
         self._promises = promises
+        self._offered: dict[tuple[Vector3, float, int, bool], tuple[Grasp, ...]] = {}
 
     def try_pick(
         self,
@@ -52,24 +55,46 @@ class Picking:
         if not only:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
         scene = self._promises.scene(work.pile)
-        found = self._planner.pick(start, box.shape, ways, scene, str(box.id))
+        beyond = self._beyond(box)
+        found = self._planner.pick(start, box.shape, ways, scene, str(box.id), beyond)
+        if isinstance(found, NoMotion) and beyond != EXACT:
+            beyond = EXACT
+            found = self._planner.pick(start, box.shape, ways, scene, str(box.id))
         if isinstance(found, NoMotion):
             return str(found)
-        return self._timed(box, mass, found)
+        return self._timed(box, mass, found, beyond)
+
+    def _beyond(self, box: Perceived) -> Vector3:
+        """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
+        work = self._work
+        if isinstance(box, Recognition) or not work.pile.remembered:
+            return EXACT
+        return beyond_seen(work.delivery, box.shape.size)
 
     def ways(self, box: Perceived) -> tuple[Grasp, ...]:
         """Every way to hold a box on the pallet, best first."""
+        failed = self._work.doubted.get(box.id, frozenset())
+        return tuple(sorted(self.offered(box), key=lambda grasp: grasp.approach in failed))
+
+    def offered(self, box: Perceived) -> tuple[Grasp, ...]:
+        """The ways to hold a box, whatever has failed; worked out once for boxes that are alike."""
         work = self._work
         front = pallet_front(work.layout.pallet)
-        found = grasps(box.shape, expected_mass(box, work.delivery), work.layout.tool, front)
-        failed = work.doubted.get(box.id, frozenset())
-        return tuple(sorted(found, key=lambda grasp: grasp.approach in failed))
+        mass = expected_mass(box, work.delivery)
+        toward = np.array(box.shape.pose.rotation).T @ np.array(front)
+        axis = int(np.argmax(np.abs(toward[:2])))
+        key = (box.shape.size, mass, axis, bool(toward[axis] > 0))
+        if key not in self._offered:
+            self._offered[key] = grasps(box.shape, mass, work.layout.tool, front)
+        return self._offered[key]
 
     def masses(self, box: Perceived) -> tuple[float | None, float | None]:
         """The least and the most that a box can weigh, by the note [kg]."""
         return expected_masses(box, self._work.delivery)
 
-    def _timed(self, box: Perceived, mass: float, pick: Pick) -> PickPlan | str:
+    def _timed(
+        self, box: Perceived, mass: float, pick: Pick, beyond: Vector3 = EXACT
+    ) -> PickPlan | str:
         planner = self._planner
         scene = self._promises.scene(self._work.pile)
         empty = planner.mover.checker(scene, OPEN, folded=pick.grasp.folded)
@@ -78,7 +103,7 @@ class Picking:
         lift = planner.timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
             return "the suction would not hold it"
-        return PickPlan(box, mass, pick, approach, lift)
+        return PickPlan(box, mass, pick, approach, lift, beyond)
 
     async def pick(self, box: BoxId) -> PickPlan | str:
         """The pick of a box from where the arm stands; planned anew where the kept one is off.

@@ -11,10 +11,10 @@ from depal.cell.planning.timing import Timing
 from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Grasp
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
-from depal.motion.grasping import Holding
+from depal.motion.grasping import EXACT, Holding
 from depal.motion.moves import OPEN, Berth, Mover, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
@@ -70,7 +70,13 @@ class Planner:
                 await asyncio.sleep(motions * self._work.settings.charges.plan)
 
     def pick(
-        self, start: Array, solid: OrientedBox, ways: Sequence[Grasp], scene: Scene, name: str
+        self,
+        start: Array,
+        solid: OrientedBox,
+        ways: Sequence[Grasp],
+        scene: Scene,
+        name: str,
+        beyond: Vector3 = EXACT,
     ) -> Pick | NoMotion:
         """To a box and off what it stands on.
 
@@ -80,9 +86,12 @@ class Planner:
             ways: to hold it, best first.
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
+            beyond: how much longer the box may be along its own axes, at either end [m].
         """
         effort = self._effort(self.planned + 1)
-        return self._measured(lambda: self.mover.pick(start, solid, ways, scene, name, effort))
+        return self._measured(
+            lambda: self.mover.pick(start, solid, ways, scene, name, effort, beyond)
+        )
 
     def put(self, load: Load, berth: Berth, scene: Scene) -> Put | NoMotion:
         """With a box into a place and out again."""

@@ -1,11 +1,12 @@
 """Planned motions, ready to be followed."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from depal.domain import BoxId, Grasp, Joints, Perceived, PlaceId
 from depal.geometry import Pose, Vector3
 from depal.logistics.placing import Spot
 from depal.motion.collision.values import Array
+from depal.motion.grasping import EXACT, swollen
 from depal.motion.moves import Part, Pick
 from depal.ports import Trajectory
 
@@ -20,6 +21,7 @@ class PickPlan:
         pick: the paths.
         approach: from where the arm was expected to the plane of touch.
         lift: off what it stands on.
+        beyond: how much longer the box may be along its own axes, at either end [m].
     """
 
     box: Perceived
@@ -27,6 +29,7 @@ class PickPlan:
     pick: Pick
     approach: Trajectory
     lift: Trajectory
+    beyond: Vector3 = EXACT
 
     @property
     def grasp(self) -> Grasp:
@@ -45,6 +48,7 @@ class Load:
         mass: [kg].
         lead: straight parts that come first: the way out of the pile.
         start: (6,) where free space begins [rad].
+        beyond: how much longer the box may be along its own axes, at either end [m].
     """
 
     box: BoxId
@@ -53,6 +57,13 @@ class Load:
     mass: float
     lead: tuple[Part, ...]
     start: Array
+    beyond: Vector3 = EXACT
+
+    @property
+    def bulky(self) -> "Load":
+        """The smallest box around all that the box can be, held the same way."""
+        grasp, size = swollen(self.grasp, self.size, self.beyond)
+        return replace(self, grasp=grasp, size=size, beyond=EXACT)
 
 
 @dataclass(frozen=True, slots=True, eq=False)

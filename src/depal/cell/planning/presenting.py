@@ -35,11 +35,12 @@ class Presenting:
     def _sides(self, load: Load) -> ShowPlan | str:
         planner = self._planner
         scene = self._promises.scene(self._work.pile, without=load.box)
-        holding, clear = planner.holding(load), planner.checker(load, scene)
+        bulky = load.bulky
+        holding, clear = planner.holding(load), planner.checker(bulky, scene)
         found: list[Trajectory] = []
         reason = "no side can be shown"
         for _, pose in shown_poses(load, self._work.layout.reader):
-            parts = planner.show(load, pose, scene)
+            parts = planner.show(bulky, pose, scene)
             if isinstance(parts, NoMotion):
                 reason = str(parts)
                 continue
@@ -47,5 +48,5 @@ class Presenting:
             if trajectory is None:
                 continue
             found.append(trajectory)
-            load = replace(load, lead=(), start=parts[-1].path[-1])
+            bulky = replace(bulky, lead=(), start=parts[-1].path[-1])
         return ShowPlan(found[0], tuple(found[1:])) if found else reason

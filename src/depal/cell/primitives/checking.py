@@ -4,18 +4,18 @@ from collections import Counter
 from dataclasses import replace
 
 from depal.cell.guards import Guards
-from depal.cell.identity import resized, why_not
+from depal.cell.identity import told_size, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
-from depal.cell.sight.naming import turned_like
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Gtin
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
 from depal.logistics.gtin import gtin_fault
+from depal.motion.grasping import resized
 from depal.ports import Question
 
 READER = "reader"
@@ -24,9 +24,6 @@ UNKNOWN = "I cannot tell"
 
 TWICE = 2
 """A code that is not on the note is believed when it was read so often."""
-
-ANY = 0.25
-"""The edges of a product that was told replace those that were seen, off by so much even [m]."""
 
 
 class Checking:
@@ -111,10 +108,9 @@ class Checking:
         too_many = work.surplus(gtin)
         if too_many is not None:
             return self._refuse(box, too_many)
-        size = turned_like(product.size, held.size, ANY)
-        if size is not None:
-            grasp = resized(held.grasp, held.size, size)
-            work.held = replace(held, size=size, grasp=grasp)
+        size, beyond = told_size(product.size, held.size)
+        grasp = resized(held.grasp, held.size, size)
+        work.held = replace(held, size=size, grasp=grasp, beyond=beyond)
         work.feedback.learn(box, product)
         work.aside_reasons.pop(box, None)
         work.wishes.identified(box, gtin, work.now)

@@ -4,16 +4,17 @@ import asyncio
 
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
-from depal.cell.identity import size_by_weight, why_not
+from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.feeling import lifted_from, sucked
 from depal.cell.primitives.withdrawing import out_of_view
-from depal.cell.workplace import Workplace
+from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
+from depal.motion.grasping import EXACT
 
 ARM_AT = "kr60.at"
 
@@ -71,7 +72,11 @@ class Taking:
         slipped = slipped or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped)
-        self._work.lifted(box, plan.grasp, plan.box.shape.size, mass)
+        size = plan.box.shape.size
+        beyond = plan.beyond
+        if beyond != EXACT:
+            beyond = beyond_seen(self._work.delivery, size, mass)
+        self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
         return Report(((f"{box}.taken", True),))
 

@@ -8,6 +8,7 @@ from depal.domain import CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Body, Checker, Margins, Scene
 from depal.motion.collision.values import Array
+from depal.motion.grasping.bulk import EXACT
 from depal.motion.moves.margins import OPEN
 from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
@@ -49,6 +50,7 @@ class Mover:
         scene: Scene,
         name: str,
         effort: Effort,
+        beyond: Vector3 = EXACT,
     ) -> Pick | NoMotion:
         """To a box, and straight out of the pile with it.
 
@@ -59,8 +61,9 @@ class Mover:
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
             effort: for free space.
+            beyond: how much longer the box may be along its own axes, at either end [m].
         """
-        return plan_pick(self._reach, start, box, grasps, scene, name, effort)
+        return plan_pick(self._reach, start, box, grasps, scene, name, effort, beyond)
 
     def why_no_pick(
         self, near: Array, box: OrientedBox, grasp: Grasp, scene: Scene, name: str

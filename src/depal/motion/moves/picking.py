@@ -10,6 +10,7 @@ from depal.domain import Approach, CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
+from depal.motion.grasping.bulk import EXACT, swollen
 from depal.motion.moves.margins import BEFORE, BEYOND, CLOSE, DEEPER, FINE, LIFT, OPEN
 from depal.motion.moves.reach import Reach, scaled
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick
@@ -57,6 +58,7 @@ class _Job:
         box: in the cell frame.
         scene: all that stands around, the box included.
         without: the same, the box left out.
+        beyond: how much longer it may be along its own axes, at either end [m].
     """
 
     reach: Reach
@@ -64,6 +66,7 @@ class _Job:
     box: OrientedBox
     scene: Scene
     without: Scene
+    beyond: Vector3 = EXACT
 
 
 def plan_pick(
@@ -74,6 +77,7 @@ def plan_pick(
     scene: Scene,
     name: str,
     effort: Effort,
+    beyond: Vector3 = EXACT,
 ) -> Pick | NoMotion:
     """To a box, and straight out of the pile with it.
 
@@ -89,8 +93,10 @@ def plan_pick(
         scene: all that stands around, the box included under its name.
         name: of the box in the scene.
         effort: for free space.
+        beyond: how much longer the box may be along its own axes, at either end: it is taken
+            straight on until whatever it may be is clear [m].
     """
-    job = _Job(reach, start, box, scene, scene.without(name))
+    job = _Job(reach, start, box, scene, scene.without(name), beyond)
     reasons: list[str] = []
     kept: list[_Option] = []
     empty = {folded: reach.checker(scene, OPEN, folded=folded) for folded in (False, True)}
@@ -161,7 +167,7 @@ def _options(job: _Job, grasp: Grasp, reasons: list[str], *, careful: bool) -> I
     near = reach.checker(job.scene, CLOSE, folded=grasp.folded)
     empty = near.with_margins(OPEN)
     holding = reach.checker(job.without, CLOSE, grasp, box.size)
-    clear = holding.with_margins(OPEN)
+    clear = reach.checker(job.without, OPEN, *swollen(grasp, box.size, job.beyond))
     for q in branches:
         if hit := near.why(q):
             reasons.append(hit)

@@ -14,6 +14,7 @@ from depal.perception.assembling.pairing import paired
 from depal.perception.assembling.sizing import Seen, Sized, sized
 from depal.perception.faces import Face, Facing, SeenBox
 from depal.perception.rasters.region import Region
+from depal.perception.recognition import believed
 from depal.perception.settling import Draft, Place, settled
 
 Floats = npt.NDArray[np.float64]
@@ -131,9 +132,8 @@ def _on(cell_from_box: Pose, size: tuple[float, float, float], face: Face) -> Fa
 
 
 def _named(parts: Sequence[Lying]) -> Gtin | None:
-    """The product that a print says for certain, where no other contradicts."""
-    names = {each.face.name.gtin for each in parts if each.face.name and each.face.name.certain}
-    return next(iter(names)) if len(names) == 1 else None
+    """The product that the prints say together."""
+    return believed([each.face.name for each in parts if each.face.name is not None])
 
 
 def _supposed(parts: Sequence[Lying]) -> Gtin | None:

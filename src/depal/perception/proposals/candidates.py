@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.faces import Rectangle
+from depal.perception.proposals import kernels
 from depal.perception.proposals.kernels import FEATURES
 from depal.perception.proposals.lines import Rectangles, between_lines, measured, running
 from depal.perception.seams import Seams
@@ -126,17 +127,9 @@ def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp
     # Sides as they lie; candidates of different directions differ by their turns' effect too.
     sides = np.column_stack((u - w / 2, v - h / 2, u + w / 2, v + h / 2, turn * (w + h) / 4))
     order = np.argsort(-odds, kind="stable")
-    kept: list[int] = []
-    chosen = np.zeros((most, 5))
-    for index in order.tolist():
-        if len(kept) == most:
-            break
-        away = np.abs(chosen[: len(kept)] - sides[index]).max(axis=1)
-        if (away <= ALIKE).any() or (away <= RATHER).sum() >= FEW:
-            continue
-        chosen[len(kept)] = sides[index]
-        kept.append(index)
-    return np.array(kept, dtype=np.intp)
+    kept = np.zeros(most, dtype=np.int64)
+    count = kernels.unlike(sides, order, ALIKE, RATHER, FEW, kept)
+    return kept[:count]
 
 
 def _in_raster(found: Rectangles) -> Candidates:

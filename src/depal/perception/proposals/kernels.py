@@ -100,6 +100,75 @@ def snapped(rows: Floats, columns: Floats, slack: int, turns: int, rectangles: I
 
 
 @loop_kernel
+def _weakest(sums: Floats, line: int, first: int, last: int) -> float:
+    """Mean over the weakest third of a map's row, `last` included."""
+    third = max((last - first + 1) // 3, 1)
+    least = _row_mean(sums, line, first, first + third - 1)
+    least = min(least, _row_mean(sums, line, first + third, first + 2 * third - 1))
+    return min(least, _row_mean(sums, line, first + 2 * third, last))
+
+
+@loop_kernel
+def rough(rows: Floats, columns: Floats, rectangles: Ints, out: Floats) -> None:
+    """A first score of rectangles: the mean of the sides, the weakest side, the weakest third.
+
+    Args:
+        rows: (h, w + 1) running sums of the evidence of level edges along rows.
+        columns: (w, h + 1) running sums of the evidence of upright edges along columns.
+        rectangles: (n, 4) left, top, right, bottom [pixel].
+        out: (n,); written.
+    """
+    for n in range(rectangles.shape[0]):
+        total, weakest, third = 0.0, 1e9, 1e9
+        for side in range(4):
+            other = 1 - side % 2
+            first, last = rectangles[n, other], rectangles[n, other + 2]
+            sums = columns if side % 2 == 0 else rows
+            mean = _row_mean(sums, rectangles[n, side], first, last)
+            total += mean
+            weakest = min(weakest, mean)
+            third = min(third, _weakest(sums, rectangles[n, side], first, last))
+        out[n] = total / 4 + weakest + third
+
+
+@loop_kernel
+def unlike(sides: Floats, order: Ints, alike: float, rather: float, few: int, kept: Ints) -> int:
+    """The first of an order, none like an earlier one.
+
+    Args:
+        sides: (n, d) places of candidates.
+        order: (n,) their rows, the best first.
+        alike: candidates whose places differ by no more, whichever is looked at, are the same.
+        rather: of those that differ by no more, only so few are kept.
+        few: how many.
+        kept: (k,) room for rows; written.
+
+    Returns:
+        How many were kept; k at the most.
+    """
+    count = 0
+    for n in range(order.shape[0]):
+        if count == kept.shape[0]:
+            break
+        row, near, same = order[n], 0, False
+        for m in range(count):
+            away = 0.0
+            for k in range(sides.shape[1]):
+                away = max(away, abs(sides[kept[m], k] - sides[row, k]))
+                if away > rather:
+                    break
+            if away <= rather:
+                near += 1
+                if away <= alike or near >= few:
+                    same = True
+                    break
+        if not same:
+            kept[count] = row
+            count += 1
+    return count
+
+
+@loop_kernel
 def sides(rows: Floats, columns: Floats, rectangles: Ints, out: Floats) -> None:
     """The evidence along the sides of rectangles.
 
@@ -118,10 +187,7 @@ def sides(rows: Floats, columns: Floats, rectangles: Ints, out: Floats) -> None:
             line = rectangles[n, side]
             sums = columns if upright else rows
             out[n, side] = _row_mean(sums, line, first, last)
-            third = max((last - first + 1) // 3, 1)
-            least = _row_mean(sums, line, first, first + third - 1)
-            least = min(least, _row_mean(sums, line, first + third, first + 2 * third - 1))
-            out[n, 4 + side] = min(least, _row_mean(sums, line, first + 2 * third, last))
+            out[n, 4 + side] = _weakest(sums, line, first, last)
 
 
 @loop_kernel

@@ -97,7 +97,10 @@ def measured(seams: Seams, pixels: Ints, rows: Floats, columns: Floats) -> Float
 def _different(pixels: Ints) -> Ints:
     """Each rectangle once, in order."""
     powers = WIDEST ** np.arange(3, -1, -1)
-    keys = np.unique(pixels @ powers)
+    keys = np.sort(pixels @ powers)
+    first = np.ones(len(keys), dtype=bool)
+    np.not_equal(keys[1:], keys[:-1], out=first[1:])
+    keys = keys[first]
     return np.asarray(keys[:, None] // powers % WIDEST)
 
 
@@ -155,7 +158,6 @@ def _by_sizes(
 
 def _rough(pixels: Ints, rows: Floats, columns: Floats) -> Floats:
     """A first score: all four sides, the weakest most."""
-    features = np.zeros((len(pixels), 8))
-    kernels.sides(rows, columns, pixels, features)
-    sides, thirds = features[:, :4], features[:, 4:]
-    return np.asarray(sides.mean(axis=1) + sides.min(axis=1) + thirds.min(axis=1))
+    scores = np.zeros(len(pixels))
+    kernels.rough(rows, columns, pixels, scores)
+    return scores

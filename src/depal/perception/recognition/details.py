@@ -57,6 +57,21 @@ PERCENTILES = (1, 5, 20, 50)
 FEW = 0.003
 """Shares are told by their logarithm, with this added."""
 
+STRENGTHS = (2, 10, 50)
+"""Percentiles that are told of how strongly the print's strokes are there."""
+
+RESTS = (50, 90, 98)
+"""And of the strokes that are not the print's, as a share of its own [logarithm]."""
+
+WEAK, MUCH = 0.4, 0.3
+"""A window whose strokes are weaker shows others, where more of these are there, or none."""
+
+WORDS = ((15, 1), (7, 1))
+"""Windows of a word and of half a word are so many squares wide and high, on the first scale."""
+
+FEWEST = 0.25
+"""A window of a word is told of where so much of it bears small print."""
+
 
 def small_print(sharp: Features) -> tuple[Flags, ...]:
     """On each scale the windows in which something small is printed.
@@ -77,18 +92,56 @@ def reading(seen: Features, printed: Features, small: tuple[Flags, ...]) -> Floa
     """
     numbers = list[float]()
     for scale, there in zip(SCALES, small, strict=True):
-        found = found_again(seen, printed, scale)[there]
-        if not found.size:
-            found = np.zeros(1, dtype=np.float32)
-        numbers += [float(np.log((found < limit).mean() + FEW)) for limit in LIMITS]
-        numbers += np.percentile(found, PERCENTILES).tolist()
+        sums, floor = _compared(seen, printed, scale)
+        if scale is SCALES[0]:
+            numbers += _words(sums, there)
+        if not there.any():
+            sums, floor = np.zeros((1, 1, 3), np.float32), np.ones((1, 1), np.float32)
+            there = np.ones((1, 1), dtype=np.bool_)  # noqa: PLW2901 - as if nothing were found
+        numbers += _told(sums[there], floor[there])
     return np.array(numbers)
+
+
+def _told(sums: Narrow, floor: Narrow) -> list[float]:
+    """Of the windows with small print what share of them, and how much, is found again."""
+    found = _found(sums, floor)
+    strength = sums[:, 0] / (sums[:, 2] + floor)
+    rest = np.maximum(sums[:, 1] - sums[:, 0] * strength, 0.0) / (sums[:, 2] + floor)
+    weak = strength < WEAK
+    shares = [(found < limit).mean() for limit in LIMITS]
+    shares += [(weak & (rest > MUCH)).mean(), (weak & (rest <= MUCH)).mean()]
+    return [
+        *np.log(np.array(shares) + FEW).tolist(),
+        *np.percentile(found, PERCENTILES).tolist(),
+        *np.percentile(strength, STRENGTHS).tolist(),
+        *np.log(np.percentile(rest, RESTS) + 0.02).tolist(),
+    ]
+
+
+def _words(sums: Narrow, there: Flags) -> list[float]:
+    """How well the word and the half word agree that do so worst, and the usual ones."""
+    inside, numbers = sums * there[..., None], list[float]()
+    for size in WORDS:
+        whole = cv2.boxFilter(inside, -1, size, borderType=cv2.BORDER_CONSTANT)
+        share = cv2.boxFilter(there.astype(np.float32), -1, size, borderType=cv2.BORDER_CONSTANT)
+        chosen = np.asarray(whole)[there & (np.asarray(share) > FEWEST)]
+        if not len(chosen):
+            chosen = np.zeros((1, 3), dtype=np.float32)
+        alike = chosen[:, 0] / np.sqrt(chosen[:, 1] * chosen[:, 2] + 1e-8)
+        strength = chosen[:, 0] / (chosen[:, 2] + 1e-4)
+        numbers += [*np.percentile(alike, (0, 5, 25)).tolist(), float(strength.min())]
+    return numbers
 
 
 def reading_names() -> tuple[str, ...]:
     """What the numbers of a reading are."""
-    told = [f"below {limit}" for limit in LIMITS] + [f"percentile {p}" for p in PERCENTILES]
-    return tuple(f"{scale.around * 1000:g} mm, {name}" for scale in SCALES for name in told)
+    told = [f"below {limit}" for limit in LIMITS] + ["others", "none"]
+    told += [f"percentile {p}" for p in PERCENTILES]
+    told += [f"strength {p}" for p in STRENGTHS] + [f"rest {p}" for p in RESTS]
+    names = [f"{scale.around * 1000:g} mm, {name}" for scale in SCALES for name in told]
+    worst = ("worst", "percentile 5", "percentile 25", "weakest")
+    words = [f"{word}, {name}" for word in ("word", "half word") for name in worst]
+    return (*words, *names)
 
 
 def found_again(seen: Features, printed: Features, scale: Scale) -> Narrow:
@@ -99,10 +152,19 @@ def found_again(seen: Features, printed: Features, scale: Scale) -> Narrow:
         printed: features of the print with the blur that suits both.
         scale: how strokes are looked at.
     """
+    return _found(*_compared(seen, printed, scale))
+
+
+def _compared(seen: Features, printed: Features, scale: Scale) -> tuple[Narrow, Narrow]:
+    """(rows, columns, 3) products and squares of both's strokes, and the squares of noise."""
     one, other = seen.sharpened(scale.around), printed.sharpened(scale.around)
     sums = _sums(one.values, other.values, printed.weights, scale)
     share = _share(printed.weights, sums.shape[:2], scale)
-    floor = np.float32(scale.noise * scale.cell**2) * np.maximum(share, np.float32(0.05))
+    return sums, np.float32(scale.noise * scale.cell**2) * np.maximum(share, np.float32(0.05))
+
+
+def _found(sums: Narrow, floor: Narrow) -> Narrow:
+    """1 where strokes are the print's, 0 where they are others; more than them is no fault."""
     alike = sums[..., 0] / np.sqrt((sums[..., 1] + floor) * (sums[..., 2] + floor))
     there = sums[..., 0] / (sums[..., 2] + floor)
     return np.asarray(np.maximum(alike, np.minimum(there, 1.0)), dtype=np.float32)

@@ -3,6 +3,9 @@
 import math
 from dataclasses import dataclass
 
+import numpy as np
+import numpy.typing as npt
+
 from depal.domain import Gtin
 from depal.perception.faces import Facing, Name
 from depal.perception.recognition.agreement import Agreement, agreement, cosine_of
@@ -16,10 +19,19 @@ from depal.perception.recognition.registration import (
     found_at,
     registered,
 )
-from depal.perception.recognition.trust import evidence, shipped_trust
+from depal.perception.recognition.tones import tones
+from depal.perception.recognition.trust import shipped_trust
+
+Floats = npt.NDArray[np.float64]
 
 SIZES = 0.018
 """Edges of a face are known so well [m]."""
+
+WRONG = 0.04
+"""So wrong they may be where no print of that size is seen [m]."""
+
+RESEMBLES, DIFFERS = 0.85, 0.6
+"""A print of whose size a face is agrees at least so much, and nowhere differs more."""
 
 LEAST = 0.35
 """Cosine below which a print is not what is seen; coarse."""
@@ -44,8 +56,6 @@ class Limits:
     Attributes:
         cosine: of the whole face, at least.
         odds: that it is no unknown sibling, at least [logarithm]; None for the trained limit.
-        label_ends: where a label may reach farther down, as a share of the height, it may hide
-            what tells siblings apart.
         contrast: of a print that says enough: squared, over its area [m^2].
         apart: a rival whose cosine is so far below is excluded.
         less: so is one whose odds are so much lower [logarithm].
@@ -53,7 +63,6 @@ class Limits:
 
     cosine: float = 0.5
     odds: float | None = None
-    label_ends: float = 0.9
     contrast: float = 4e-4
     apart: float = 0.2
     less: float = 2.5
@@ -83,14 +92,20 @@ class Identity:
     Attributes:
         name: the best one.
         refined: where it says that the face is.
-        odds: that it is no unknown sibling of that product [logarithm].
-        rivals: products that the face does not exclude.
     """
 
     name: Name
     refined: Refinement
-    odds: float
-    rivals: tuple[Gtin, ...] = ()
+
+    @property
+    def odds(self) -> float:
+        """That it is no unknown sibling of that product [logarithm]."""
+        return self.name.odds
+
+    @property
+    def rivals(self) -> tuple[Gtin, ...]:
+        """Products that the face does not exclude."""
+        return self.name.rivals
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -104,6 +119,11 @@ class Fit:
     agreed: Agreement
     seen: Features
     level: int
+
+    def fits(self, size: tuple[float, float]) -> bool:
+        """Whether a face of this size may be the print's."""
+        wide, high = self.printed.size if self.quarter % 2 == 0 else self.printed.size[::-1]
+        return abs(wide - size[0]) <= SIZES and abs(high - size[1]) <= SIZES
 
 
 def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Identity | None:
@@ -127,31 +147,47 @@ def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Id
     others = [fit for fit in fits if fit.printed.product.gtin != gtin]
     close = [fit for fit in others if fit.agreed.cosine >= best.agreed.cosine - limits.apart]
     rivals = tuple(fit.printed.product.gtin for fit in close if _odds(fit) > odds - limits.less)
-    certain = not rivals and _believed(best, odds, limits)
+    certain = not rivals and best.fits(patch.size) and _believed(best, odds, limits)
     score = min(max(best.agreed.cosine, 0.0), 1.0)
-    name = Name(gtin, best.printed.side, score, certain, best.quarter)
-    return Identity(name, _refined(best), odds, rivals)
+    name = Name(gtin, best.printed.side, score, certain, best.quarter, odds, rivals)
+    return Identity(name, _refined(best))
 
 
-def fitting(size: tuple[float, float], facing: Facing, gallery: Gallery) -> list[tuple[Print, int]]:
-    """Prints that a face of this size may bear, and their quarter turns."""
+def fitting(
+    size: tuple[float, float], facing: Facing, gallery: Gallery, within: float = SIZES
+) -> list[tuple[Print, int]]:
+    """Prints that a face of about this size may bear, and their quarter turns."""
     found = list[tuple[Print, int]]()
     for printed in gallery.prints:
         if printed.facing is not facing:
             continue
         for quarter in range(4) if facing is Facing.TOP else range(1):
             wide, high = printed.size if quarter % 2 == 0 else printed.size[::-1]
-            if abs(wide - size[0]) <= SIZES and abs(high - size[1]) <= SIZES:
+            if abs(wide - size[0]) <= within and abs(high - size[1]) <= within:
                 found.append((printed, quarter))
     return found
 
 
 def laid_over_face(patch: Patch, gallery: Gallery) -> list[Fit]:
-    """The prints that resemble a face most, laid over it."""
-    candidates = fitting(patch.size, patch.facing, gallery)
+    """The prints that resemble a face most, laid over it; of other sizes where none does."""
+    near = fitting(patch.size, patch.facing, gallery)
+    seen = patch.features
+    fits = _all_laid(seen, near)
+    if any(fit.agreed.cosine >= RESEMBLES and fit.agreed.worst <= DIFFERS for fit in fits):
+        return fits
+    known = {(printed.product.gtin, printed.side, quarter) for printed, quarter in near}
+    far = [
+        (printed, quarter)
+        for printed, quarter in fitting(patch.size, patch.facing, gallery, WRONG)
+        if (printed.product.gtin, printed.side, quarter) not in known
+    ]
+    return fits + _all_laid(seen, far)
+
+
+def _all_laid(seen: Features, candidates: list[tuple[Print, int]]) -> list[Fit]:
+    """Of these prints those that resemble a face most, laid over it."""
     if not candidates:
         return []
-    seen = patch.features
     turned = {quarter: seen.turned(-quarter) for quarter in {q for _, q in candidates}}
     small = {quarter: features.thinned(COARSE) for quarter, features in turned.items()}
     firsts = [
@@ -186,9 +222,29 @@ def _laid(
 
 def _odds(fit: Fit) -> float:
     """That the print is not an unknown sibling's."""
-    printed = fit.printed
-    read = reading(fit.seen, printed.levels[fit.level], printed.small)
-    return shipped_trust().log_odds(evidence(fit.agreed, fit.level, read))
+    return shipped_trust().log_odds(evidence(fit))
+
+
+def evidence(fit: Fit) -> Floats:
+    """What speaks for a print, as the numbers of `trust.NAMES`."""
+    printed, agreed = fit.printed, fit.agreed
+    level = printed.levels[fit.level]
+    whole = (
+        agreed.cosine,
+        math.log(agreed.worst + 0.02),
+        math.log(agreed.worst_tone + 0.02),
+        agreed.seen,
+        float(fit.level),
+        abs(fit.motion.scale),
+        printed.label_ends,
+        *printed.size,
+        float(printed.facing is Facing.TOP),
+        math.log(printed.contrast + 1e-4),
+        math.log(printed.small[-1].sum() + 1.0),
+    )
+    told = tones(fit.seen.thinned(COARSE), level.thinned(COARSE), printed.areas)
+    read = reading(fit.seen, level, printed.small)
+    return np.concatenate((whole, told, read))
 
 
 def _believed(fit: Fit, odds: float, limits: Limits) -> bool:
@@ -197,7 +253,6 @@ def _believed(fit: Fit, odds: float, limits: Limits) -> bool:
         fit.agreed.cosine >= limits.cosine
         and odds >= (shipped_trust().limit if limits.odds is None else limits.odds)
         and fit.printed.contrast >= limits.contrast
-        and fit.printed.label_ends <= limits.label_ends
     )
 
 

@@ -15,10 +15,11 @@ from depal.perception.recognition.details import small_print
 from depal.perception.recognition.features import Features, features_of
 from depal.perception.recognition.labels import inside, label_ends, without_label
 from depal.perception.recognition.patches import FINE, SOFT
+from depal.perception.recognition.tones import Areas, areas_of
 
 Flags = npt.NDArray[np.bool_]
 
-BLURS = (0.0, 1.1, 2.0)
+BLURS = (0.0, 1.1, 2.0, 3.0)
 """Pictures are kept as a near, a far and a farther camera sees them [mm], a Gauss curve's width."""
 
 COARSE = 3
@@ -46,6 +47,7 @@ class Print:
         outline: the same in pixels `OUTLINE` times as large, its colours compared with those
             around as its brightness is.
         small: where something small is printed.
+        areas: where which of its colours is, in pixels `COARSE` times as large.
         label_ends: how far down its label may reach, as a share of its height.
         contrast: how much is printed: its squared features, summed over its area [m^2].
     """
@@ -57,6 +59,7 @@ class Print:
     coarse: Features
     outline: Features
     small: tuple[Flags, ...]
+    areas: Areas
     label_ends: float
     contrast: float
 
@@ -124,7 +127,8 @@ def print_of(product: Product, side: str, picture: Picture) -> Print:
     outline = middle.thinned(OUTLINE // 2).flattened()
     small = small_print(levels[0])
     ends = 0.0 if side == "top" else label_ends(*side_size(product, side))
-    return Print(product, side, levels, middle, coarse, outline, small, ends, contrast)
+    areas = areas_of(coarse)
+    return Print(product, side, levels, middle, coarse, outline, small, areas, ends, contrast)
 
 
 def _levels(picture: Picture, side: str) -> tuple[Features, ...]:

@@ -72,13 +72,7 @@ def fewest_removals(ways: Ways, wanted: Mask, limits: Limits | None = None) -> R
     found = 0
     for box in members(wanted):
         found |= labels[box][0]
-    if found.bit_count() == bound.bit_count():
-        return Removal(found, wanted, bound.bit_count(), Proof.CLOSURE)
-    return _searched(ways, wanted, found, bound, limits or Limits())
-
-
-def _searched(ways: Ways, wanted: Mask, found: Mask, bound: Mask, limits: Limits) -> Removal:
-    solution = solved(ways, wanted, found, bound, limits)
+    solution = solved(ways, wanted, found, bound, limits or Limits())
     return Removal(solution.boxes, wanted, solution.bound, Proof.PROGRAM, solution.rounds)
 
 

@@ -11,10 +11,13 @@ from depal.studies.drawing.priority import grid_centres, priority_field
 from depal.studies.drawing.reduction import Reduction, reduction_over_weight
 from depal.studies.drawing.save import save_figure
 from depal.studies.drawing.scores import ScoredLayout, scored_front
+from depal.studies.drawing.stability import Agreed, Along, stability_figure
 from depal.studies.drawing.table import TableRow, table_figure
 from depal.studies.drawing.throughput import Emptied, throughput_figure
 
 __all__ = [
+    "Agreed",
+    "Along",
     "Emptied",
     "PileState",
     "Reduction",
@@ -28,6 +31,7 @@ __all__ = [
     "reduction_over_weight",
     "save_figure",
     "scored_front",
+    "stability_figure",
     "table_figure",
     "three_piles",
     "throughput_figure",

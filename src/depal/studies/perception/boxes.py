@@ -14,11 +14,11 @@ def all_faces(look: Look) -> tuple[Face, ...]:
 
 def match_boxes(
     look: Look, truth: Truth, faces: Sequence[Face], matching: Matching
-) -> dict[int, int]:
-    """Seen boxes with the true ones that they are, one to one.
+) -> tuple[dict[int, int], dict[int, int]]:
+    """Seen boxes with the true ones that they are, one to one; and those that are one once more.
 
     A box is the one that its largest matched face belongs to; where two seen boxes are the same
-    true one, the one with more of it is.
+    true one, the one with more of it is, and the other is it once more.
 
     Args:
         look: what was seen.
@@ -40,7 +40,8 @@ def match_boxes(
             best = max(shares, key=lambda true: (shares[true], -true))
             claims.append((shares[best], index, best))
     matched: dict[int, int] = {}
+    again: dict[int, int] = {}
     for _, index, best in sorted(claims, key=lambda claim: (-claim[0], claim[1])):
-        if best not in matched.values():
-            matched[index] = best
-    return matched
+        chosen = again if best in matched.values() else matched
+        chosen[index] = best
+    return matched, again

@@ -36,6 +36,8 @@ class Identities:
         unknown: boxes whose product has no pictures; a name is always wrong.
         unknown_siblings: those of the unknown whose sibling has pictures.
         phantoms: names of boxes that are not there.
+        twice: names of boxes that are there and were seen as two, by their own names: a fault of
+            putting faces together, and not of names.
     """
 
     known: Mapping[str, Names] = field(default_factory=dict)
@@ -43,6 +45,7 @@ class Identities:
     unknown: Names = field(default_factory=Names)
     unknown_siblings: Names = field(default_factory=Names)
     phantoms: int = 0
+    twice: int = 0
 
     def __add__(self, other: "Identities") -> "Identities":
         """Both together."""
@@ -52,6 +55,7 @@ class Identities:
             self.unknown + other.unknown,
             self.unknown_siblings + other.unknown_siblings,
             self.phantoms + other.phantoms,
+            self.twice + other.twice,
         )
 
     @property
@@ -66,7 +70,10 @@ class Identities:
 
 
 def identities(
-    seen: tuple[SeenBox, ...], true: tuple[TrueBox, ...], matched: Mapping[int, int]
+    seen: tuple[SeenBox, ...],
+    true: tuple[TrueBox, ...],
+    matched: Mapping[int, int],
+    again: Mapping[int, int],
 ) -> Identities:
     """Counts what was believed of the boxes that were found.
 
@@ -74,11 +81,14 @@ def identities(
         seen: the boxes of a look.
         true: the boxes that are there.
         matched: seen boxes with the true ones that they are.
+        again: seen boxes that are true ones which another seen box is already.
     """
     total = Identities()
     for index, box in enumerate(seen):
         if index not in matched:
-            total += Identities(phantoms=int(box.gtin is not None))
+            twice = index in again and box.gtin == true[again[index]].gtin
+            named = int(box.gtin is not None)
+            total += Identities(phantoms=named * (not twice), twice=named * twice)
             continue
         really = true[matched[index]]
         right = box.gtin == really.gtin

@@ -107,6 +107,7 @@ def _names() -> list[Quantity]:
     return [
         *named,
         Quantity("known boxes named wrong", "%", 0.1, "lower", _wrong),
+        Quantity("named boxes seen twice", "%", math.nan, "lower", _twice),
         Quantity("unknown boxes accepted", "%", 0.5, "lower", lambda s: _bad(s.names.unknown)),
         Quantity("siblings named", "%", math.nan, "higher", lambda s: _good(s.names.all_siblings)),
         Quantity(
@@ -161,6 +162,12 @@ def _wrong(score: Score) -> Value:
     """Named as another product, and names of boxes that are not there."""
     names = score.names.all_known
     return _share(Share(min(names.wrong + score.names.phantoms, names.boxes), names.boxes), 100.0)
+
+
+def _twice(score: Score) -> Value:
+    """Of known boxes those that were seen as two, and the second named as well."""
+    boxes = score.names.all_known.boxes
+    return _share(Share(min(score.names.twice, boxes), boxes), 100.0)
 
 
 def _share(share: Share, scale: float = 1.0) -> Value:

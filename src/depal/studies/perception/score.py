@@ -72,7 +72,7 @@ def scored(look: Look, truth: Truth) -> Score:
     """Compares what was seen with what is there."""
     faces = all_faces(look)
     matching = match_faces(faces, truth.faces)
-    boxes = match_boxes(look, truth, faces, matching)
+    boxes, again = match_boxes(look, truth, faces, matching)
     on_top, occludes = true_relations([box.shape for box in truth.boxes])
     blocked = {lower for _, lower in (*on_top.asked, *occludes.asked)}
     return Score(
@@ -89,7 +89,7 @@ def scored(look: Look, truth: Truth) -> Score:
             pose_error(faces[found], truth.faces[true], grasp=truth.faces[true].box not in blocked)
             for found, true in matching.pairs
         ),
-        identities(look.boxes, truth.boxes, boxes),
+        identities(look.boxes, truth.boxes, boxes, again),
         judged(look.on_top, on_top, boxes),
         judged(look.occludes, occludes, boxes),
     )

@@ -13,7 +13,7 @@ from depal.motion.grasping import grasps
 from depal.selection import BlockingGraph, geometric_rank, position_priority
 from depal.selection.access import BEFORE, OVER, Ways, free_ways, masks, standings
 from depal.studies.real import STACKED, far_side, perceived_stack
-from depal.studies.retrieval.rows import Row, row_of
+from depal.studies.retrieval.rows import POLICIES, Row, row_of
 from depal.studies.retrieval.runs import Retrieval, Scores, by_access, by_paper
 
 
@@ -70,8 +70,8 @@ def stack_rows(piece: StackPiece) -> tuple[StackRows, list[tuple[Retrieval, Retr
     ]
     clearance = piece.layout is not None
     rows = (
-        row_of(delivery.id, 0.0, clearance, "paper", [paper for paper, _ in pairs]),
-        row_of(delivery.id, 0.0, clearance, "access", [access for _, access in pairs]),
+        row_of(delivery.id, 0.0, clearance, pairs, 0),
+        row_of(delivery.id, 0.0, clearance, pairs, 1),
     )
     return StackRows(delivery.id, len(boxes), rows, sum(map(_is_above, pairs))), pairs
 
@@ -101,7 +101,4 @@ def real_rows(pieces: Sequence[tuple[StackRows, list[tuple[Retrieval, Retrieval]
     """The rows of all deliveries together, one per policy."""
     pairs = [pair for _, results in pieces for pair in results]
     clearance = bool(pieces) and pieces[0][0].rows[0].clearance
-    return [
-        row_of("real", 0.0, clearance, "paper", [paper for paper, _ in pairs]),
-        row_of("real", 0.0, clearance, "access", [access for _, access in pairs]),
-    ]
+    return [row_of("real", 0.0, clearance, pairs, policy) for policy in range(len(POLICIES))]

@@ -17,7 +17,7 @@ from depal.selection import EXACT, BlockingGraph, geometric_rank, position_prior
 from depal.selection.access import BEFORE, OVER, Mask, Ways, free_ways, masks, standings
 from depal.studies.case1 import draw_trial
 from depal.studies.pallets import RandomPallet, generator_named
-from depal.studies.retrieval.rows import Row, row_of
+from depal.studies.retrieval.rows import POLICIES, Row, row_of
 from depal.studies.retrieval.runs import Retrieval, Scores, by_access, by_paper
 from depal.studies.sweep import Progress, no_progress, sweep
 
@@ -83,12 +83,11 @@ def random_rows(
         for first in range(0, pallets, _PIECE)
     ]
     trials = [trial for piece in sweep(count_piece, pieces, executor, progress) for trial in piece]
-    rows = []
-    for number, share in enumerate(shares):
-        for name, policy in (("paper", 0), ("access", 1)):
-            results = [trial[number][policy] for trial in trials]
-            rows.append(row_of(generator, share, layout is not None, name, results))
-    return rows
+    return [
+        row_of(generator, share, layout is not None, [trial[number] for trial in trials], policy)
+        for number, share in enumerate(shares)
+        for policy in range(len(POLICIES))
+    ]
 
 
 Pair = tuple[Retrieval, Retrieval]

@@ -1,0 +1,99 @@
+"""What becomes of a pile that is let go: MuJoCo's word, with the simulated cell's contacts."""
+
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+import numpy.typing as npt
+
+from depal.geometry import Pose
+from depal.selection.stability import TouchRule
+from depal.simulation.model import GAP
+from depal.simulation.parts import quaternion
+
+Array = npt.NDArray[np.float64]
+
+FALLEN = 0.03
+"""A pile has fallen when the centre of any box has moved so far [m]."""
+
+SECONDS = 3.0
+"""A pile is watched for so long, or until it rests [s]."""
+
+STEP = 0.001
+"""Half the cell's: at its step a few slim boxes fall that stand at this one [s]."""
+
+IMPRATIO = 10.0
+"""MuJoCo's friction creeps; at its default of 1 leaning boxes walk some 10 mm/s."""
+
+TOUCHING = TouchRule(rise=1e-6, gap=1e-6, narrow=1e-6, inset=0.002)
+"""What touches in the study: known poses, but no case has edges as sharp as its numbers.
+
+MuJoCo's boxes are narrower than they say, and their contacts give by some tenths of a millimetre.
+"""
+
+_LOOK = 50
+_SETTLED = 300
+_STILL = 1e-4
+
+
+@dataclass(frozen=True, slots=True)
+class Let:
+    """What was seen.
+
+    Attributes:
+        fell: whether a box moved by more than FALLEN.
+        moved: how far the box that moved farthest did [m].
+    """
+
+    fell: bool
+    moved: float
+
+
+def let_go(prisms: Array, masses: Array, friction: float = 0.5, deck: float = 0.0) -> Let:
+    """Lets the boxes of a pile go, at rest, where they are.
+
+    Args:
+        prisms: (n, 8) the boxes.
+        masses: (n,) [kg].
+        friction: of every contact.
+        deck: the height on which the pile stands [m].
+
+    Returns:
+        Whether it fell.
+    """
+    model = _model(prisms, masses, friction, deck)
+    data = mujoco.MjData(model)
+    moved = 0.0
+    for step in range(1, round(SECONDS / STEP) + 1):
+        mujoco.mj_step(model, data)
+        if step % _LOOK == 0:
+            moved = float(np.abs(data.xpos[1:] - prisms[:, :3]).max(initial=0.0))
+            still = step > _SETTLED and float(np.abs(data.qvel).max(initial=0.0)) < _STILL
+            if moved > FALLEN or still:
+                break
+    return Let(moved > FALLEN, moved)
+
+
+def _model(prisms: Array, masses: Array, friction: float, deck: float) -> mujoco.MjModel:
+    spec = mujoco.MjSpec()
+    spec.option.timestep = STEP
+    spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+    spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
+    spec.option.tolerance = 1e-6
+    spec.option.iterations = 50
+    spec.option.impratio = IMPRATIO
+    mu = [friction, 0.005, 0.0001]
+    plane = mujoco.mjtGeom.mjGEOM_PLANE
+    geoms = [spec.worldbody.add_geom(type=plane, size=[0, 0, 1], pos=[0, 0, deck], friction=mu)]
+    for prism, mass in zip(prisms.tolist(), masses.tolist(), strict=True):
+        x, y, z, length, width, height, c, s = prism
+        turned = Pose((x, y, z), ((c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)))
+        body = spec.worldbody.add_body(pos=[x, y, z], quat=quaternion(turned.rotation))
+        body.add_freejoint()
+        size = [length - GAP / 2, width - GAP / 2, height]
+        box = mujoco.mjtGeom.mjGEOM_BOX
+        geoms.append(body.add_geom(type=box, size=size, mass=mass, friction=mu))
+    for geom in geoms:  # as stiff as in the cell
+        geom.solref[:2] = (0.01, 1.0)
+        geom.solimp[:3] = (0.99, 0.999, 0.001)
+    return spec.compile()
