@@ -51,6 +51,7 @@ def test_every_generator_has_its_table(depal: Run) -> None:
         (("fig8", "--pallets", "300"), {"rows", "pallets", "seed"}),
         (("fig9", "--pallets", "10"), {"rows", "steps", "w"}),
         (("case2", "--draws", "5"), {"layouts"}),
+        (("stability", "--pallets", "2", "--states", "3"), {"rows", "agreement", "checks"}),
         (("fig4",), {"highest", "lowest"}),
         (("fig5",), {"reachable", "edges"}),
     ],
