@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,9 @@ from depal.selection.links import Array, Indices
 from depal.selection.relations import Relation
 from depal.selection.score import ScoreRule
 from depal.selection.wanted import Aim
+
+if TYPE_CHECKING:  # it solves programs, which whoever only selects need not load
+    from depal.selection.stability import Certificate
 
 G = TypeVar("G")
 
@@ -99,6 +102,7 @@ class Decision(Generic[G]):
         boxes: (slots,) the perceived box of each slot, None where it is empty.
         blocker_table: offsets, blockers and relations by slot.
         refusals: why boxes that nothing blocks could not be grasped, by slot.
+        certificate: how firmly the pile stands that the target leaves, where a guard has asked.
     """
 
     outcome: Outcome
@@ -112,6 +116,7 @@ class Decision(Generic[G]):
     boxes: tuple[Perceived | None, ...] = field(repr=False)
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
+    certificate: "Certificate | None" = None
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
