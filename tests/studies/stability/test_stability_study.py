@@ -22,7 +22,7 @@ def test_a_box_over_an_edge_falls_in_mujoco_too(out: float, falls: bool) -> None
     high = OrientedBox.from_corner((out, 0, 0.2), (0.4, 0.4, 0.2))
     let = let_go(prisms_of([low, high]), np.array([4.0, 4.0]))
     assert let.fell == falls
-    assert (let.moved > 0.03) == falls
+    assert (let.moved > 0.01) == falls
 
 
 def test_an_empty_pallet_stands() -> None:
@@ -79,7 +79,7 @@ def made_up(saved: int = 8) -> Stability:
     pairs = [Pair(LOOSE, 5, low, firm, (3, 3), 2) for _ in range(saved)]
     pairs += [Pair(LOOSE, 5, firm, firm, (2, 2), 0)]
     pairs += [Pair(name, 5, firm, firm, (1, 1), 0) for name in PACKED]
-    compared = [Compared("cubic", 5, margin, margin <= EDGE, 0.0) for margin in (0.1, -1.0)]
+    compared = [Compared("cubic", 5, margin, margin, margin <= EDGE, 0.0) for margin in (0.1, -1.0)]
     return summed_up(compared, pairs, 0.2, 0.03)
 
 
