@@ -14,7 +14,7 @@ from depal.simulation.parts import quaternion
 Array = npt.NDArray[np.float64]
 
 FALLEN = 0.01
-"""A pile has fallen when any box has moved so far; what stands settles by 1 mm [m]."""
+"""A pile has fallen when a centre has moved so far; what stands settles by about 1 mm [m]."""
 
 SECONDS = 3.0
 """A pile is watched for so long, or until it rests [s]."""
