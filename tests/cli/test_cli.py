@@ -53,6 +53,7 @@ def test_every_generator_has_its_table(depal: Run) -> None:
         (("case2", "--draws", "5"), {"layouts"}),
         (("due", "--pallets", "2", "--small", "1"), {"due", "pallets", "small", "seed"}),
         (("hidden", "--pallets", "1", "--generators", "cubic,columns"), {"hidden", "pallets"}),
+        (("stability", "--pallets", "2", "--states", "3"), {"rows", "agreement", "checks"}),
         (("fig4",), {"highest", "lowest"}),
         (("fig5",), {"reachable", "edges"}),
     ],

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,9 @@ from depal.selection.graph import Blocker
 from depal.selection.links import Array, Indices
 from depal.selection.relations import Relation
 from depal.selection.score import ScoreRule
-from depal.selection.stability.certificate import Certificate
+
+if TYPE_CHECKING:  # it solves programs, which whoever only selects need not load
+    from depal.selection.stability import Certificate
 
 G = TypeVar("G")
 
@@ -114,7 +116,7 @@ class Decision(Generic[G]):
     boxes: tuple[Perceived | None, ...] = field(repr=False)
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
-    certificate: Certificate | None = None
+    certificate: "Certificate | None" = None
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:

@@ -19,7 +19,8 @@ from depal.studies.stability.states import draw_masses
 Array = npt.NDArray[np.float64]
 
 LOOKED_AT = 0.1
-"""Piles with less margin than this are let go in MuJoCo; others stand [g]."""
+"""Piles are let go in MuJoCo where the margin found without side faces is below this; others stand
+[g]."""
 
 DRAWS = 200
 """So often a pallet is drawn anew that stands less firmly than the study asks for."""
@@ -185,7 +186,7 @@ def _judge(job: Job, pile: StandingPile, taken: Taken, asked: dict[frozenset[int
         gone = taken.order[:count]
         margin = pile.certificate(gone, LOOKED_AT).margin
         taken.margins.append(margin)
-        if margin >= LOOKED_AT:
+        if margin >= LOOKED_AT and pile.quick_bound(gone) >= LOOKED_AT:
             continue
         key = frozenset(gone)
         if key not in asked:
