@@ -312,6 +312,25 @@ def due() -> Iterator[Line]:
             yield Line(what, "<= 5 %", above, row["above"] <= 0.05)  # noqa: PLR2004 - the figure
 
 
+def learning() -> Iterator[Line]:
+    """`depal study learning`: a known policy recovered from 200 of its orders, 20 times."""
+    for temperature in ("0.01", "0.03"):
+        words = ("--pallets", "200", "--seeds", "20", "--temperature", temperature)
+        report, _ = depal("study", "learning", *words, "--workers", "2")
+        rows = report["rows"]
+        assert isinstance(rows, list)  # noqa: S101 - our own file
+        worst = max(row["greatest_error"] for row in rows)
+        often = f"all four in {report['recovered']} of {report['of']}"
+        followed = f"{100 * float(str(report['followed'])):.0f} % of choices the best"
+        at_target = temperature == "0.01"
+        yield Line(
+            f"weights of a policy from 200 recorded pallets, T = {temperature} m ({followed})",
+            "within 5 %" if at_target else "",
+            f"greatest error {100 * worst:.1f} %; {often}",
+            worst <= 0.05 or not at_target,  # noqa: PLR2004 - the figure
+        )
+
+
 def hidden() -> Iterator[Line]:
     """`depal study hidden`: a requested box that nobody has seen."""
     report, _ = depal("study", "hidden", "--pallets", "250", "--workers", "2")
@@ -369,6 +388,7 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     unloading,
     due,
     hidden,
+    learning,
     executive,
     crashes,
     planning,

@@ -95,11 +95,16 @@ def test_a_choice_that_the_papers_rule_would_not_make_is_told_and_not_explained(
     """By another policy: what was recorded, no more."""
     path = record / "choices.jsonl"
     first = path.read_text().splitlines()[0]
-    path.write_text(first.replace('"target":"high"', '"target":"aside"') + "\n")
-    assert words(record, "low") == "Choice 1 at 0.0 s\nlow: blocked (high on top)"
+    for change in (
+        ('"by_score":true', '"by_score":false'),
+        ('"scored lower than high"', '"scored lower than all"'),
+    ):
+        path.write_text(first.replace(*change) + "\n")
+        assert words(record, "low") == "Choice 1 at 0.0 s\nlow: blocked (high on top)"
     weights = {"side": 0.2, "depth": 0.3, "height": 0.5}
     empty = {"lines": [], "w": 0.5, "x_max": 2.2, "requests": [], "weights": weights}
-    assert decided_again({**empty, "target": "x"}) is None
+    assert decided_again({**empty, "by_score": True}) is not None
+    assert decided_again({**empty, "by_score": False}) is None
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,8 @@ from depal.selection.learning import (
     probabilities,
     steps_of,
 )
-from depal.selection.learning.fit import most_likely
+from depal.selection.learning.consistent import agreeing, extremes
+from depal.selection.learning.fit import climbed, most_likely
 from depal.selection.learning.likelihood import likelihood
 
 PAPER = (PAPER_WEIGHTS.side, PAPER_WEIGHTS.depth, PAPER_WEIGHTS.height)
@@ -301,3 +302,24 @@ def test_an_estimate_of_nothing_is_open() -> None:
     """From 0 to 1."""
     assert Estimate.unknown().holds(0.5)
     assert not Estimate.unknown().known
+
+
+def test_a_step_that_is_too_long_is_halved_and_one_downhill_is_none() -> None:
+    """Until the likelihood rises."""
+    choices = Choices.of([drawn(1, theta_of(0.5, PAPER, 0.1), 50)])
+    start = np.ones(4)
+    now = likelihood(choices, start)
+    higher = climbed(choices, start, now, 1e4 * now.gradient)
+    assert higher is not None
+    assert higher[1].value > now.value
+    best, there = most_likely(choices, 4)
+    assert climbed(choices, best, there, np.zeros(4)) is None
+
+
+def test_where_nothing_differs_no_rule_is_named() -> None:
+    """And where no rule agrees there are no extremes."""
+    assert agreeing(np.zeros((3, 4))) is None
+    one = np.array([[0.0, 1.0, 0.0, 0.0], [0.0, -1.0, 0.0, 0.0]])
+    against = np.vstack((one, -np.eye(4)))
+    assert agreeing(against) is None
+    assert extremes(against, np.eye(4)[1], np.ones(4)) is None

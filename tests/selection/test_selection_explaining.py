@@ -237,9 +237,10 @@ def test_nothing_chosen_is_nothing_to_explain_but_each_box_can_be_asked_about() 
 def test_a_decision_by_another_rule_gets_no_changes() -> None:
     """Where G would have chosen another box, nothing is guessed."""
     decision = choose([LOW, HIGH, ASIDE], [], 0.5, frozenset())
-    told = explain(replace(decision, target=LOW))
-    assert told is not None
-    assert told.changes == ()
+    for other in (replace(decision, target=LOW), replace(decision, by_score=False)):
+        told = explain(other)
+        assert told is not None
+        assert told.changes == ()
 
 
 def test_where_nothing_is_left_without_a_box_nothing_can_be_grasped() -> None:
@@ -252,3 +253,22 @@ def test_an_explanation_of_forty_boxes_is_quick_enough_for_a_screen() -> None:
     boxes = cut(7, 40)
     decision = choose(boxes, [Request(priority=0.7, box=BoxId("b3"))], 0.4, frozenset())
     assert explain(decision, tolerances=EXACT) == explain(decision, tolerances=EXACT)
+
+
+def test_of_equals_the_one_that_a_request_would_pull_stays_chosen() -> None:
+    """Two boxes with one score now: on the side of the chosen one nothing turns."""
+    twins = [
+        box("left", (1.4, 0.2, 0.0), (0.4, 0.2, 0.2)),
+        box("right", (1.4, -0.4, 0.0), (0.4, 0.2, 0.2)),
+    ]
+    wish = Request(priority=0.5, box=BoxId("left"))
+    told = explain(choose(twins, [wish], 0.0, frozenset()))
+    assert told is not None
+    assert told.box == "left"
+    assert told.lead == pytest.approx(0.0)
+    assert [change.kind for change in told.changes] == []
+    both = [wish, Request(priority=0.5, box=BoxId("right"))]
+    tied = explain(choose(twins, both, 0.5, frozenset()))
+    assert tied is not None
+    for change in tied.changes:
+        assert changed(twins, both, 0.5, frozenset(), change) == "right"

@@ -70,7 +70,7 @@ def _read(folder: Path) -> list[Note]:
         raise JournalError(message) from None
     except ValueError:
         raise JournalError(f"{path}: is no record's list of choices") from None
-    if any("explanation" not in note for note in notes):
+    if any("by_score" not in note for note in notes):
         message = f"{path}: has no explanations; expected a record of this version"
         raise JournalError(message)
     return notes
@@ -198,8 +198,9 @@ def decided_again(note: Note) -> Decision[LeafAlone] | None:
     except InputError:
         return None
     decision = select(graph, requests, rule, grasp_for)
-    chosen = None if decision.target is None else decision.target.id
-    return decision if chosen == note["target"] else None
+    told = [(v.box.id, v.fate.value, v.reason) for v in decision.verdicts]
+    same = told == [(line["box"], line["fate"], line["reason"]) for line in note["lines"]]
+    return decision if same and note["by_score"] else None
 
 
 def _box(line: dict[str, Any]) -> Perceived:

@@ -85,6 +85,7 @@ class ChoiceNote:
     w: float
     x_max: float
     weights: PositionWeights
+    by_score: bool
     explanation: Explanation | None
     aims: tuple[AimNote, ...] = ()
     stands: str = ""
@@ -145,6 +146,7 @@ def note_of(at: float, decision: Decision[Any]) -> ChoiceNote:
         w=rule.w,
         x_max=rule.x_max,
         weights=rule.weights,
+        by_score=decision.by_score,
         explanation=explain(decision),
         aims=tuple(
             AimNote(aim.request.wanted, aim.box, aim.removals, aim.least) for aim in decision.aims

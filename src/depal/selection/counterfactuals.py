@@ -71,7 +71,7 @@ class Change:
                 return f"without the request for {self.subject} {then}"
             case Kind.WISH:
                 return f"with a request for {self.subject}, p{side} {value}, {then}"
-            case Kind.REMOVAL:
+            case _:
                 return f"were {self.subject} gone, {then}"
 
 

@@ -103,6 +103,7 @@ class Decision(Generic[G]):
         blocker_table: offsets, blockers and relations by slot.
         refusals: why boxes that nothing blocks could not be grasped, by slot.
         certificate: how firmly the pile stands that the target leaves, where that was asked.
+        by_score: whether the scores alone decided, or some boxes went ahead whatever theirs.
     """
 
     outcome: Outcome
@@ -117,6 +118,7 @@ class Decision(Generic[G]):
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
     certificate: "Certificate | None" = None
+    by_score: bool = True
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:

@@ -130,7 +130,7 @@ def explain(
     chosen = verdict.fate is Fate.CHOSEN
     rival = _runner_up(decision, now) if chosen else target and decision.verdict(target.id)
     changes: tuple[Change, ...] = ()
-    if now.again() == (target.id if target else None):
+    if _by_g(decision, now):
         changes = tuple(_changes_from(now, verdict) if chosen else _changes_to(now, verdict))
     return Explanation(
         box=verdict.box.id,
@@ -142,6 +142,14 @@ def explain(
         lead=verdict.s - rival.s if rival else 0.0,
         changes=changes,
     )
+
+
+def _by_g(decision: Decision[Any], now: Situation) -> bool:
+    """Whether G and the scores alone made this decision, and would again."""
+    if not decision.by_score:
+        return False
+    blockers = all(v.blockers == now.graph.blockers(v.box.id) for v in decision.verdicts)
+    return blockers and now.again() == (decision.target.id if decision.target else None)
 
 
 def _runner_up(decision: Decision[Any], now: Situation) -> Verdict | None:

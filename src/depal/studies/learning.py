@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from depal.domain import BoxId, Detection, Request, checked_share
+from depal.domain import BoxId, Request, checked_share
 from depal.errors import SettingError
-from depal.geometry import OrientedBox
-from depal.selection import EXACT, PositionWeights, ScoreRule
+from depal.selection import PositionWeights, ScoreRule
 from depal.selection.learning import (
     Choices,
     Estimate,
@@ -23,6 +22,7 @@ from depal.selection.learning import (
     steps_of,
 )
 from depal.studies.pallets import generator_named
+from depal.studies.retrieval_game import Pile
 from depal.studies.statistics import Share
 from depal.studies.sweep import Progress, no_progress, sweep
 
@@ -76,12 +76,8 @@ def draw_order(teacher: Teacher, seed: int, index: int) -> Order:
     """
     rng = np.random.default_rng(np.random.SeedSequence(seed, spawn_key=(index,)))
     name = teacher.generators[index % len(teacher.generators)]
-    pallet = generator_named(name)(rng)
-    shapes = zip(pallet.low.tolist(), pallet.sizes.tolist(), strict=True)
-    boxes = tuple(
-        Detection(BoxId(f"b{k}"), OrientedBox.from_corner((x, y, z), (a, b, c)))
-        for k, ((x, y, z), (a, b, c)) in enumerate(shapes)
-    )
+    pallet = Pile.of(generator_named(name)(rng), name)
+    boxes = pallet.boxes
     wanted = rng.permutation(len(boxes))[: teacher.requests].tolist()
     requests = tuple(
         Request(
@@ -92,9 +88,11 @@ def draw_order(teacher: Teacher, seed: int, index: int) -> Order:
         for slot in wanted
     )
     rule = ScoreRule(teacher.w, pallet.x_max, teacher.weights)
-    unloading = Unloading(boxes, requests, pallet.x_max, EXACT)
+    unloading = Unloading(boxes, requests, pallet.x_max, pallet.tolerances)
     departures = draw_departures(unloading, rule, teacher.temperature, rng, SECONDS)
-    return Order(f"{name}-{seed}-{index}", boxes, requests, departures, pallet.x_max, EXACT)
+    return Order(
+        f"{name}-{seed}-{index}", boxes, requests, departures, pallet.x_max, pallet.tolerances
+    )
 
 
 def drawn_choices(teacher: Teacher, pallets: int, seed: int) -> Choices:

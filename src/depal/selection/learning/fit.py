@@ -39,27 +39,42 @@ def most_likely(choices: Choices, columns: int) -> tuple[Array, Likelihood]:
     theta = np.zeros(columns)
     now = likelihood(choices, theta)
     for _ in range(STEPS):
-        free = (theta > 0) | (now.gradient > 0)
-        step = _newton_step(now, free)
-        if float(step @ now.gradient) < GAIN:
+        step = _newton_step(now, theta)
+        higher = climbed(choices, theta, now, step) if float(step @ now.gradient) > GAIN else None
+        if higher is None:
             break
-        share = 1.0
-        for _ in range(HALVINGS):
-            tried = np.maximum(theta + share * step, 0.0)
-            there = likelihood(choices, tried)
-            if there.value > now.value:
-                theta, now = tried, there
-                break
-            share /= 2
-        else:
-            break
+        theta, now = higher
     return theta, now
 
 
-def _newton_step(now: Likelihood, free: npt.NDArray[np.bool_]) -> Array:
-    """(columns,) where the free weights should go; zero for those that rest."""
-    step = np.zeros(len(free))
-    information = now.information[np.ix_(free, free)]
-    damped = information + (DAMPING * np.trace(information) + GAIN) * np.eye(len(information))
-    step[free] = np.linalg.solve(damped, now.gradient[free])
-    return step
+def climbed(
+    choices: Choices, theta: Array, now: Likelihood, step: Array
+) -> tuple[Array, Likelihood] | None:
+    """Where the likelihood is higher along a step, or None where nowhere.
+
+    Args:
+        choices: whose likelihood it is.
+        theta: (columns,) where the step begins.
+        now: the likelihood there.
+        step: (columns,) halved until the likelihood rises; what becomes negative is 0.
+    """
+    for halvings in range(HALVINGS):
+        tried = np.maximum(theta + step / 2**halvings, 0.0)
+        there = likelihood(choices, tried)
+        if there.value > now.value:
+            return tried, there
+    return None
+
+
+def _newton_step(now: Likelihood, theta: Array) -> Array:
+    """(columns,) where the weights should go; zero for those that rest at zero."""
+    free = (theta > 0) | (now.gradient > 0)
+    while True:
+        step = np.zeros(len(theta))
+        information = now.information[np.ix_(free, free)]
+        damped = information + (DAMPING * np.trace(information) + GAIN) * np.eye(len(information))
+        step[free] = np.linalg.solve(damped, now.gradient[free])
+        leaving = (theta == 0) & (step < 0)
+        if not leaving.any():
+            return step
+        free &= ~leaving
