@@ -35,7 +35,7 @@ SNAP = 0.016
 NEAR = 0.006
 """Every side moves to the strongest edge so near [m]."""
 
-PART = 0.012
+PART = 0.022
 """A part of a rectangle is as large as an expected face where its edges differ by no more [m]."""
 
 SEEN = 0.6
