@@ -109,9 +109,7 @@ def placed(
     return Candidates(values, measures)
 
 
-def _measured_at(
-    turned: Seams, values: Floats, known: Sequence[tuple[float, float]]
-) -> Floats:
+def _measured_at(turned: Seams, values: Floats, known: Sequence[tuple[float, float]]) -> Floats:
     """What is measured of rectangles (n, 6), as they lie nearest in a turned raster."""
     way, step = turned.raster_from_turned, turned.step
     middles = (values[:, :2] / step - way[:, 2]) @ way[:, :2]

@@ -1,7 +1,5 @@
 """The loops over rectangles. Pixels are those of a turned raster; edges lie on pixels."""
 
-import math
-
 import numpy as np
 import numpy.typing as npt
 

@@ -38,9 +38,6 @@ NEAR = 0.006
 PART = 0.022
 """A part of a rectangle is as large as an expected face where its edges differ by no more [m]."""
 
-SEEN = 0.6
-"""So much of a part must be seen where something covers it."""
-
 TINY = 8
 """Narrower rectangles are none [pixel]."""
 
@@ -58,7 +55,7 @@ class Rectangles:
     Attributes:
         seams: the turned raster.
         pixels: (n, 4) left, top, right, bottom.
-        features: (n, FEATURES) as `kernels.measure` says.
+        features: (n, FEATURES) as `measured` says.
     """
 
     seams: Seams
@@ -108,7 +105,7 @@ def measured(
     kernels.insides(*sums, pixels, features)
     surfaces.surfaces(seams.depth, seams.step, pixels, features)
     surfaces.covers(seams.depth, seams.step, pixels, features)
-    parts.seams_between(*sums, pixels, known, PART / seams.step, SEEN, features)
+    parts.seams_between(*sums, pixels, known, PART / seams.step, features)
     return features
 
 

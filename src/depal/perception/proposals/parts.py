@@ -9,20 +9,24 @@ from depal.perception.proposals.kernels import weakest_third
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]
 
-
 COVERED = 0.5
 """Behind a side beyond which so much is nearer a face may go on."""
 
+LEAST = 0.6
+"""So much of a face that goes on behind something must be seen."""
+
 
 @loop_kernel
-def _fits(seen: float, edge: float, slack: float, least: float, covered: bool) -> bool:
+def _fits(seen: float, edge: float, slack: float, covered: float) -> bool:
     """Whether an edge is what is seen, or goes on where something covers it."""
-    return abs(edge - seen) <= slack or (covered and seen < edge and seen >= least * edge)
+    if abs(edge - seen) <= slack:
+        return True
+    return covered > COVERED and LEAST * edge <= seen < edge
 
 
 @loop_kernel
 def seams_between(
-    rows: Floats, columns: Floats, rectangles: Ints, sizes: Floats, slack: float, least: float, out: Floats
+    rows: Floats, columns: Floats, rectangles: Ints, sizes: Floats, slack: float, out: Floats
 ) -> None:
     """The strongest line that divides a rectangle into two of expected sizes.
 
@@ -31,10 +35,9 @@ def seams_between(
         columns: (w, h + 1) running sums of the evidence of upright edges along columns.
         rectangles: (n, 4) left, top, right, bottom [pixel].
         sizes: (m, 2) widths and heights of faces that are expected [pixel].
-        least: so much of a face must be seen where something covers it.
         slack: a part is as large as an expected face where both edges differ by no more [pixel].
-        out: (n, >= 26); 22-25 as `surfaces.covers` writes them; written: 21 the mean evidence along the weakest third of that line; 0
-            where there is none.
+        out: (n, >= 26); 22-25 as `surfaces.covers` writes them; written: 21 the mean
+            evidence along the weakest third of that line; 0 where there is none.
     """
     for n in range(rectangles.shape[0]):
         best = 0.0
@@ -42,12 +45,12 @@ def seams_between(
             sums = columns if way == 0 else rows
             low, high = rectangles[n, way], rectangles[n, way + 2]
             first, last = rectangles[n, 1 - way], rectangles[n, 3 - way]
-            covered = max(out[n, 22 + 1 - way], out[n, 24 + 1 - way]) > COVERED
+            covered = max(out[n, 23 - way], out[n, 25 - way])
             for i in range(sizes.shape[0]):
-                if not _fits(last - first, sizes[i, 1 - way], slack, least, covered):
+                if not _fits(last - first, sizes[i, 1 - way], slack, covered):
                     continue
                 for j in range(sizes.shape[0]):
-                    if not _fits(last - first, sizes[j, 1 - way], slack, least, covered):
+                    if not _fits(last - first, sizes[j, 1 - way], slack, covered):
                         continue
                     # Both parts as large as expected, each but for the slack.
                     start = max(low + sizes[i, way] - slack, high - sizes[j, way] - slack)

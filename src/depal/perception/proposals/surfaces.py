@@ -21,7 +21,7 @@ STEEP = 0.15
 """A face is no steeper against its raster [m/m]."""
 
 REACH = 0.05
-"""What covers a face is looked for so far beyond its side; between them nothing may be known [m]."""
+"""What covers a face is looked for so far beyond its side, across what is not known [m]."""
 
 
 @loop_kernel

@@ -1,19 +1,13 @@
-"""Two things that sizes tell of a rectangle: that a face goes on behind something, and that a
-rectangle is rather two faces side by side."""
+"""What sizes tell: that a face goes on behind something, that a rectangle is rather two faces."""
 
 from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
+from depal.perception.proposals.parts import COVERED, LEAST
+
 Floats = npt.NDArray[np.float64]
-Flags = npt.NDArray[np.bool_]
-
-COVERED = 0.5
-"""A side beyond which so much is nearer may be where the face goes behind it."""
-
-LEAST = 0.6
-"""So much of a face that goes behind something must be seen."""
 
 UNSURE = 0.006
 """An edge whose end is hidden fits no better than with this misfit [m]."""
