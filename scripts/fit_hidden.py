@@ -39,6 +39,7 @@ class Example:
     """One unseen box: the generator, the features of all its places, and the true one."""
 
     kind: str
+    first: bool
     features: Array
     true: int | None
 
@@ -61,7 +62,10 @@ def example(kind: str, index: int) -> Example | None:
     found = placements(scene, trial.size)
     seen = trial.prisms[list(members(looks.seen))]
     return Example(
-        kind, features(scene, found, seen), true_place(found, trial.prisms[trial.requested])
+        kind,
+        not looks.gone,
+        features(scene, found, seen),
+        true_place(found, trial.prisms[trial.requested]),
     )
 
 
@@ -119,7 +123,9 @@ def main() -> None:
     weights = tempered(examples[1::2], fitted(examples[::2]))
     for kind in GENERATORS:
         some = [each for each in examples[1::2] if each.kind == kind]
-        print(f"{kind}: {held(some, weights):.3f} of {len(some)}")
+        firsts = [each for each in some if each.first]
+        print(f"{kind}: {held(some, weights):.3f} of {len(some)}; "
+              f"first looks: {held(firsts, weights):.3f} of {len(firsts)}")  # fmt: skip
     print(f"all: {held(examples[1::2], weights):.3f}")
     n = len(FEATURES)
     parts = {"any": weights[:n], "flush": weights[n:]}

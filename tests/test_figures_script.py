@@ -115,6 +115,15 @@ def test_the_throughput_of_the_shipped_deliveries_is_in_the_table(
     assert any(line.measured == "arm motion 90.0 %, looking 10.0 %" for line in lines)
 
 
+def test_the_checks_of_stability_are_in_the_table(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As the study says them."""
+    check = {"name": "agree", "allowed": ">= 97 %", "measured": "96.0 %", "holds": False}
+    monkeypatch.setattr(script, "depal", lambda *_: ({"checks": [check]}, 1.0))
+    assert list(script.stability()) == [script.Line("agree", ">= 97 %", "96.0 %", met=False)]
+
+
 def test_every_measurement_has_a_name_of_its_own(script: ModuleType) -> None:
     """Kept files are named after them."""
     names = [measure.__name__ for measure in script.MEASUREMENTS]

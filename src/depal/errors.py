@@ -9,7 +9,8 @@
     │   ├── BookError       a picture book that cannot be used
     │   ├── SettingError    a number or a name outside its range
     │   ├── CellError       a cell file, or a cell that cannot do its work
-    │   └── FrameError      a recorded frame, or a calibration, that cannot be used
+    │   ├── FrameError      a recorded frame, or a calibration, that cannot be used
+    │   └── OrderError      a recorded order of unloading that cannot be used
     ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
@@ -31,6 +32,7 @@ __all__ = [
     "InputError",
     "JournalError",
     "MissingPartError",
+    "OrderError",
     "PileError",
     "Problem",
     "RequestError",
@@ -135,6 +137,10 @@ class CellError(InputError):
 
 class FrameError(InputError):
     """A recorded frame, or a calibration, that cannot be used."""
+
+
+class OrderError(InputError):
+    """A recorded order of unloading that cannot be used."""
 
 
 class DeviceError(DepalError):

@@ -86,6 +86,22 @@ def test_access_takes_from_above_what_the_paper_waits_for() -> None:
 
 
 @pytest.mark.slow
+def test_with_the_guard_a_counterweight_is_taken_last() -> None:
+    """A long case overhangs, one holds it down, one pulls it over: h alone would free the fall."""
+    lever = (
+        ((0.10, 0.05, 0.0), (0.35, 0.30, 0.30), 8.0),
+        ((0.10, 0.05, 0.30), (0.65, 0.30, 0.15), 4.0),
+        ((0.10, 0.10, 0.45), (0.20, 0.20, 0.20), 6.0),
+        ((0.55, 0.10, 0.45), (0.20, 0.20, 0.20), 4.0),
+    )
+    careless, guarded = run(lever), run(lever, guard=True)
+    assert careless.departures[0].box == "b3"
+    assert guarded.whole
+    assert [departure.box for departure in guarded.departures] == ["b4", "b3", "b2", "b1"]
+    assert guarded.referee.collisions == ()
+
+
+@pytest.mark.slow
 def test_a_heavy_case_is_held_with_the_suction_cone_and_lost_without() -> None:
     """20 kg: the arm could be faster than the cups can bear."""
     held, lost = run(HEAVY), run(HEAVY, cone=False)

@@ -56,9 +56,12 @@ def run(
     cone: bool = True,
     w: float = 0.5,
     policy: Policy = Policy.PAPER,
+    guard: bool = False,
     record: Path | None = None,
 ) -> Outcome:
     """Empties a pallet of these cases."""
     layout = shipped_cell("default")
-    job = Job(layout, tiny(*cases), requests, Settings(w=w, policy=policy), seed, sight, cone)
+    job = Job(
+        layout, tiny(*cases), requests, Settings(w=w, policy=policy, guard=guard), seed, sight, cone
+    )
     return run_job(job, record=record)

@@ -1,9 +1,19 @@
 """The guard: the first that leaves a firm pile, else the firmest."""
 
+import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.selection.stability import THRESHOLD, Certificate, Proof, guard
+from depal.domain import BoxId
+from depal.geometry import OrientedBox, prisms_of
+from depal.selection.stability import (
+    THRESHOLD,
+    Certificate,
+    Proof,
+    StandingPile,
+    Watch,
+    guard,
+)
 
 MARGINS = st.lists(st.floats(-1.0, 0.5), max_size=8)
 
@@ -60,3 +70,28 @@ def test_reasons_name_the_margin() -> None:
         result.passed_over[0].reason == "the pile that it leaves: margin exactly 0.010 g towards +x"
     )
     assert guard([0.2], certified).reason.endswith("0.200 g towards +x")
+
+
+def test_a_watch_refuses_what_leaves_a_bridge_to_fall_and_relents_when_nothing_else_is_left() -> (
+    None
+):
+    """A beam with a counterweight, and a box beside it."""
+    cuboids = {
+        "foot": ((0, 0, 0), (0.2, 0.2, 0.2)),
+        "beam": ((0, 0, 0.2), (0.6, 0.2, 0.1)),
+        "load": ((0, 0, 0.3), (0.2, 0.2, 0.1)),
+        "other": ((2, 0, 0), (0.2, 0.2, 0.2)),
+    }
+    prisms = prisms_of(OrientedBox.from_corner(*cuboid) for cuboid in cuboids.values())
+    names = tuple(map(BoxId, cuboids))
+    load, other = BoxId("load"), BoxId("other")
+    watch = Watch(StandingPile(prisms, np.array([1.0, 1.0, 3.0, 1.0]), names=names))
+    assert watch.relent((load,)) is None
+    assert watch.refusal(other) is None
+    assert watch.refusal(BoxId("unheard of")) is None
+    refused = watch.refusal(load)
+    assert refused is not None
+    assert "does not stand at rest, limited by beam" in refused.reason
+    assert set(watch.certificates) == {load, other}
+    assert watch.relent((load,)) == load
+    assert watch.refusal(load) is None

@@ -1,10 +1,11 @@
 """Margins: what statics says of simple piles, and laws of all piles."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from depal.domain import BoxId, Detection, Gtin, Product, Recognition
@@ -13,6 +14,7 @@ from depal.geometry import OrientedBox, prisms_of
 from depal.selection.stability import (
     CAMERA,
     EDGE,
+    KNOWN,
     LEAST,
     SEEN,
     Certificate,
@@ -24,6 +26,8 @@ from depal.selection.stability import (
     weigh,
 )
 from depal.selection.stability import program as program_module
+from depal.selection.stability.body import Body
+from depal.selection.stability.patches import touches_of
 
 Array = np.ndarray[tuple[int, ...], np.dtype[np.float64]]
 
@@ -71,6 +75,7 @@ def test_a_lone_box_tips_over_its_edge_or_slides(
     assert found == pytest.approx(expected, abs=1e-6)
 
 
+@settings(max_examples=20)
 @given(st.floats(0.01, 0.39).filter(lambda out: abs(out - 0.2) > 1e-3))
 def test_a_box_over_an_edge_falls_when_its_centre_is_out(out: float) -> None:
     """A 0.4 m box that hangs over another by some of its length."""
@@ -102,8 +107,7 @@ def test_a_bridge_falls_without_what_lies_on_its_end() -> None:
     assert left.margin < 0
     assert left.proof is Proof.EXACT
     assert standing.certificate([0, 1, 2]).limiting == ()
-    alone = standing.certificate([1, 2])
-    assert alone.limiting == () or alone.limiting == ("foot",)
+    assert left.limiting == ("beam",)
 
 
 @given(piles())
@@ -112,6 +116,7 @@ def test_forces_from_the_top_never_promise_more_than_there_is(pile: Array) -> No
     standing = StandingPile(pile, ones(pile))
     exact = standing.certificate()
     assert exact.proof is Proof.EXACT
+    assert standing.quick_bound() <= exact.margin + 1e-6
     for enough in (0.0, 0.03, 0.2):
         bound = standing.certificate(at_least=enough)
         assert (bound.margin >= enough) == (exact.margin >= enough - 1e-7) or math.isclose(
@@ -121,6 +126,7 @@ def test_forces_from_the_top_never_promise_more_than_there_is(pile: Array) -> No
         assert bound.proof is (Proof.AT_LEAST if bound.margin >= enough else Proof.EXACT)
 
 
+@settings(max_examples=20)
 @given(piles(), st.floats(0.1, 10), st.integers(0, 2**32 - 1))
 def test_units_and_order_of_the_boxes_do_not_matter(pile: Array, scale: float, seed: int) -> None:
     """Masses in other units, rows in another order."""
@@ -130,6 +136,7 @@ def test_units_and_order_of_the_boxes_do_not_matter(pile: Array, scale: float, s
     assert margin(pile[order], scale * masses[order]) == pytest.approx(found, abs=1e-6)
 
 
+@settings(max_examples=20)
 @given(piles())
 def test_a_turned_pile_stands_as_firmly(pile: Array) -> None:
     """By a quarter turn: lengths become widths."""
@@ -139,7 +146,8 @@ def test_a_turned_pile_stands_as_firmly(pile: Array) -> None:
     assert margin(turned) == pytest.approx(margin(pile), abs=1e-6)
 
 
-@given(piles())
+@settings(max_examples=12)
+@given(piles(5))
 def test_more_friction_never_harms_and_doubt_never_helps(pile: Array) -> None:
     """Nor do smaller patches help."""
     believed = margin(pile)
@@ -165,15 +173,21 @@ def test_a_box_that_only_friction_of_its_neighbours_holds_falls() -> None:
     )
     hanging = StandingPile(pile, ones(pile))
     assert hanging.assumed == ("1",)  # nothing seen below: taken as carried
-    carried = prisms(
+    # On the edge of a foot, beside one heavy neighbour: only its friction could hold the box up.
+    beside = prisms(
+        (0, 0, 0, 0.4, 0.4, 0.5), (0.4, 0, 0.2, 0.2, 0.4, 0.3), (0.4, 0, 0, 0.05, 0.4, 0.2)
+    )
+    masses = np.array([90.0, 1.0, 1.0])
+    assert margin(beside, masses) < 0
+    held = prisms(
         (0, 0, 0, 0.4, 0.4, 0.5),
         (0.4, 0, 0.2, 0.2, 0.4, 0.3),
         (0.6, 0, 0, 0.4, 0.4, 0.5),
-        (0.4, 0, 0, 0.05, 0.4, 0.2),
+        (0.45, 0.0, 0, 0.1, 0.02, 0.2),
     )
-    masses = np.array([9.0, 1.0, 9.0, 1.0])
-    assert margin(carried, masses) < 0
-    assert margin(carried, masses, friction=Friction(0.5, 0.5)) > 0
+    masses = np.array([90.0, 1.0, 90.0, 1.0])
+    assert margin(held, masses) < 0
+    assert margin(held, masses, friction=Friction(0.5, 0.5)) > 0
 
 
 @pytest.mark.parametrize("yaw", [0.0, 0.3, 0.7, -0.4])
@@ -188,21 +202,22 @@ def test_a_turned_box_stands_on_the_corners_of_the_overlap(yaw: float) -> None:
         assert found == pytest.approx(lowest, abs=1e-6)
 
 
-@pytest.mark.parametrize("yaw", [0.0, 0.02, 0.6, -0.6])
+@pytest.mark.parametrize("yaw", [0.0, 0.001, 0.02, 0.6, -0.6])
 def test_boxes_lean_face_to_face_and_corner_to_face(yaw: float) -> None:
     """A slim box stands firmer towards a neighbour that it touches, turned or not."""
     slim = OrientedBox.upright((0, 0, 0.3), (0.1, 0.1, 0.6))
     c, s = math.cos(yaw), math.sin(abs(yaw))
-    reach = 0.2 * c + 0.2 * s
-    big = OrientedBox.upright((0.05 + reach, 0, 0.3), (0.4, 0.4, 0.6), yaw)
+    aside = 0.0 if yaw == 0.0 else -math.copysign(0.2 * (c - s), yaw)
+    big = OrientedBox.upright((0.05 + 0.2 * (c + s), aside, 0.3), (0.4, 0.4, 0.6), yaw)
     pile = prisms_of([slim, big])
     standing = StandingPile(pile, np.array([1.0, 20.0]), rule=TouchRule(1e-6, 1e-3, 1e-3))
     assert standing.certificate().margin == pytest.approx(0.1 / 0.6, abs=1e-6)
-    touches = {way for way in standing._cases[0][1].touches.bodies[:, 2].tolist()}  # noqa: C416, SLF001
-    assert touches == {0, 1}
+    pushed = standing.certificate()
+    assert pushed.direction != (1.0, 0.0)  # there the neighbour helps
 
 
-@given(piles(5))
+@settings(max_examples=6)
+@given(piles(4))
 def test_the_worst_of_a_set_is_no_better_than_what_is_believed(pile: Array) -> None:
     """With poses from a camera; asked for enough or for all."""
     believed = StandingPile(pile, ones(pile), rule=SEEN).certificate()
@@ -215,6 +230,57 @@ def test_the_worst_of_a_set_is_no_better_than_what_is_believed(pile: Array) -> N
         assert worst.margin <= enough.margin + 1e-6 < 0.05
     else:
         assert enough.margin <= worst.margin + 1e-6
+
+
+def test_one_case_that_falls_short_is_enough_to_refuse() -> None:
+    """The rest of the set is not looked at: the margin is at most what was found."""
+    pile = prisms((0, 0, 0, 0.4, 0.4, 0.2), (0.19, 0, 0.2, 0.4, 0.4, 0.2))
+    sure = StandingPile(pile, ones(pile)).certificate(at_least=0.03)
+    assert sure.proof is Proof.AT_LEAST
+    doubted = StandingPile(pile, ones(pile), rule=SEEN, doubt=Doubt(pose=0.02, draws=8))
+    found = doubted.certificate(at_least=0.2)
+    assert found.proof is Proof.AT_MOST
+    assert found.margin < 0.2
+    assert "worst of 9 cases: lot" in str(found)
+
+
+def test_many_boxes_find_room_for_all_their_contacts() -> None:
+    """Layers of bricks, each on four others."""
+    bricks = [
+        (0.1 * i + 0.05 * (layer % 2), 0.1 * j + 0.05 * (layer % 2), 0.1 * layer, 0.1, 0.1, 0.1)
+        for layer in range(6)
+        for i in range(4)
+        for j in range(4)
+    ]
+    standing = StandingPile(prisms(*bricks), np.ones(len(bricks)), rule=TouchRule(1e-6, 1e-6, 1e-6))
+    assert standing.certificate([0]).margin < standing.friction.under
+
+
+def test_a_patch_smaller_than_the_doubt_carries_nothing() -> None:
+    """A sheet that is thinner than what its place is in doubt."""
+    pile = prisms((0, 0, 0, 0.008, 0.4, 0.2))
+    found = StandingPile(pile, ones(pile), rule=TouchRule(1e-6, 1e-6, 1e-6, 0.005)).certificate()
+    assert found.margin == LEAST
+
+
+@pytest.mark.parametrize(
+    ("case", "order", "push", "falls"),
+    [
+        ("stands", [1, 0], 0.2, -1),
+        ("slips", [1, 0], 0.6, 1),
+        ("looked at in a wrong order", [0, 1], 0.0, 1),
+    ],
+)
+def test_the_quick_pass_says_who_falls_first(
+    case: str, order: list[int], push: float, falls: int
+) -> None:
+    """Two flat boxes, one on the other."""
+    pile = prisms((0, 0, 0, 0.4, 0.4, 0.1), (0, 0, 0.1, 0.4, 0.4, 0.1))
+    body = Body.of(pile, ones(pile), touches_of(pile, KNOWN, 0.0, np.empty(0, np.int32)))
+    shuffled = replace(body, order=np.array(order, np.int32))
+    assert shuffled.falling((1.0, 0.0), push, 0.5) == falls, case
+    nothing = body.only(np.array([False, True]))
+    assert nothing.falling((1.0, 0.0), 0.0, 0.5) == 1
 
 
 def test_parts_that_a_removal_does_not_touch_are_not_solved_again(

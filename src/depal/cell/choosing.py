@@ -1,16 +1,19 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.standing import Guard, Standing
+from depal.cell.seeking import searches
+from depal.cell.standing import left_by, standing_pile
 from depal.cell.workplace import Policy, Workplace
-from depal.domain import BoxId, Perceived, Recognition
+from depal.domain import BoxId, Perceived, Recognition, Request
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
 from depal.selection.access import NO_WAY, AccessGraph
+from depal.selection.stability import Watch
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,10 +44,11 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     Returns:
         The choice; its grasp is a planned pick.
     """
-    graph = blocking_of(work, desk)
     wishes, rule = work.wishes.open(work.now), rule_of(work)
-    standing = Standing(work, graph)
-    guard = Guard(standing) if work.settings.guard else None
+    graph = blocking_of(work, desk, wishes)
+    pile = standing_pile(work, graph)
+    watch = Watch(pile)
+    shaky: dict[BoxId, PickPlan] = {}
     before = desk.planner.planned
     waiting: set[BoxId] = set()
 
@@ -58,31 +62,35 @@ def choose(work: Workplace, desk: Desk) -> Choice:
             return Refused(doubts)
         if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
             return Refused(NO_WAY)
-        plan = (guard and guard.kept(box)) or desk.picking.try_pick(box)
+        plan = shaky.get(box.id) or desk.picking.try_pick(box)
         if isinstance(plan, str):
             return Refused(plan)
-        return plan if guard is None else guard.judged(box, plan)
+        refusal = watch.refusal(box.id) if work.settings.guard else None
+        if refusal is not None:
+            shaky[box.id] = plan
+        return refusal or plan
 
     decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and waiting:
         decision = select(graph, wishes, rule, grasp_for)
-    if decision.target is None and guard is not None and guard.force():
+    if decision.target is None and watch.relent(tuple(shaky)) is not None:
         decision = select(graph, wishes, rule, grasp_for)
     chosen = decision.target
     if chosen is not None:
-        decision = replace(decision, certificate=standing.without(chosen.id))
+        decision = replace(decision, certificate=left_by(pile, chosen.id))
     doubts = why_later(work, chosen) if chosen is not None else None
     return Choice(decision, desk.planner.planned - before, doubts)
 
 
-def blocking_of(work: Workplace, desk: Desk) -> Blocking:
+def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:
     """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
     graph = BlockingGraph(work.pile.boxes)
     if work.settings.policy is Policy.PAPER:
         return graph
     kinematics = desk.planner.mover.body.kinematics
     ways, codes = ways_in_cell(graph, work.layout, kinematics, desk.picking.offered)
-    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now)
+    found = searches(work, graph, ways, wishes)
+    return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now, sought=found)
 
 
 def pace_of(work: Workplace) -> float:

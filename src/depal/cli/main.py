@@ -11,9 +11,11 @@ from rich.text import Text
 
 from depal import __version__
 from depal.cli.bench import bench
+from depal.cli.beyond import beyond
 from depal.cli.calibrate import calibrate
 from depal.cli.cell import cell
 from depal.cli.delivery import delivery
+from depal.cli.learn import learn
 from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.run import run
@@ -29,6 +31,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
+study.add_typer(beyond)
 app.add_typer(study, name="study")
 app.add_typer(bench, name="bench")
 app.add_typer(delivery, name="delivery")
@@ -38,6 +41,7 @@ app.command()(run)
 app.command()(replay)
 app.command()(calibrate)
 app.command()(see)
+app.command()(learn)
 
 
 def main() -> None:
@@ -77,13 +81,19 @@ def _depal(
 
 @app.command()
 def schema(
-    name: Annotated[str, typer.Argument(help="cell, delivery or requests")] = "",
+    name: Annotated[str, typer.Argument(help="cell, delivery, orders or requests")] = "",
 ) -> None:
     """Print the JSON Schema of a format."""
-    from depal.cell.files import cell_schema  # noqa: PLC0415 - fast help
+    from depal.app.learning import order_schema  # noqa: PLC0415 - fast help
+    from depal.cell.files import cell_schema  # noqa: PLC0415
     from depal.logistics import delivery_schema, requests_schema  # noqa: PLC0415
 
-    schemas = {"cell": cell_schema, "delivery": delivery_schema, "requests": requests_schema}
+    schemas = {
+        "cell": cell_schema,
+        "delivery": delivery_schema,
+        "orders": order_schema,
+        "requests": requests_schema,
+    }
     if name not in schemas:
         what = f"unknown format {name!r}" if name else "no format named"
         raise SettingError("depal schema", what, exists=did_you_mean(name, schemas))

@@ -20,11 +20,19 @@ def replay(
     ] = "text",
     out: Annotated[Path | None, typer.Option(help="Write the tree to this file.")] = None,
     every: Annotated[bool, typer.Option("--all", help="Changes of facts and timers too.")] = False,  # noqa: FBT002
+    why: Annotated[
+        str | None,
+        typer.Option(
+            help="Why boxes were chosen: all, the number of a choice, or a box's name.",
+            show_default=False,
+        ),
+    ] = None,
     json_file: JsonFile = None,
 ) -> None:
-    """Show a recorded run, decide it again, and draw its trees at any moment."""
+    """Show a recorded run, decide it again, draw its trees at any moment, explain its choices."""
     from depal.app.files import checked_target, write_json, write_text  # noqa: PLC0415 - fast help
     from depal.app.replay import FORMS, replay_report, tree_at  # noqa: PLC0415
+    from depal.app.whys import why_report  # noqa: PLC0415
 
     checked_target(json_file, "--json")
     checked_target(out, "--out")
@@ -37,7 +45,7 @@ def replay(
         else:
             typer.echo(text)
         return
-    report = replay_report(record, every=every)
+    report = replay_report(record, every=every) if why is None else why_report(record, why)
     for part in report.shown:
         console().print(part, highlight=False, markup=False)
     if json_file is not None:

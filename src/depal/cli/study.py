@@ -12,12 +12,12 @@ from depal.errors import SettingError
 if TYPE_CHECKING:
     from depal.app.reports import Report
 
-study = typer.Typer(help="The paper's case studies.", no_args_is_help=True)
+study = typer.Typer(help="The paper's case studies, and beyond.", no_args_is_help=True)
 
 Pallets = Annotated[int, typer.Option(help="How many random pallets.", min=1)]
 
 
-def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None:
+def finish(report: "Report", json_file: Path | None, plot: Path | None) -> None:
     """Prints, writes and draws a report; exit status 1 where something must hold and does not."""
     from depal.app.files import write_json  # noqa: PLC0415 - fast help
     from depal.studies.drawing import save_figure  # noqa: PLC0415
@@ -34,7 +34,8 @@ def _finish(report: "Report", json_file: Path | None, plot: Path | None) -> None
         raise typer.Exit(1)
 
 
-def _check_targets(json_file: Path | None, plot: Path | None) -> None:
+def check_targets(json_file: Path | None, plot: Path | None) -> None:
+    """Refuses files that cannot be written, before anything is worked on."""
     from depal.app.files import checked_targets  # noqa: PLC0415 - fast help
 
     checked_targets(json_file, plot)
@@ -59,7 +60,7 @@ def table1(
     from depal.studies.sweep import executor_for  # noqa: PLC0415
     from depal.studies.table1 import table1 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     names = named_generators(generators)
     if plot is not None and len(names) > 1:
         what = f"a picture shows one generator, {len(names)} are named"
@@ -70,7 +71,7 @@ def table1(
         for name in names:
             with progress_bar(f"Table I, {name}") as progress:
                 results.append(run(pallets, seed, name, executor=executor, progress=progress))
-    _finish(table1_report(results, time.perf_counter() - start), json_file, plot)
+    finish(table1_report(results, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -88,11 +89,11 @@ def fig8(
     from depal.studies.sweep import executor_for  # noqa: PLC0415
     from depal.studies.table1 import table1 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Fig. 8") as progress:
         result = run(pallets, seed, executor=executor, progress=progress)
-    _finish(fig8_report(result, time.perf_counter() - start), json_file, plot)
+    finish(fig8_report(result, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -111,43 +112,11 @@ def fig9(
     from depal.studies.fig9 import fig9 as run  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Fig. 9") as progress:
         result = run(pallets, seed, w, executor=executor, progress=progress)
-    _finish(fig9_report(result, pallets, seed, time.perf_counter() - start), json_file, plot)
-
-
-@study.command()
-def stability(  # noqa: PLR0913, PLR0917 - a command's options
-    pallets: Annotated[
-        int,
-        typer.Option(help="Pairs of unloadings of loose pallets, and of full packings.", min=1),
-    ] = 1_000,
-    states: Annotated[
-        int, typer.Option(help="Random states that are compared with MuJoCo.", min=1)
-    ] = 600,
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.2,
-    threshold: Annotated[
-        float, typer.Option(help="The guard's least margin, in g.", min=0.0)
-    ] = 0.03,
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-    plot: PlotFile = None,
-) -> None:
-    """Margins against MuJoCo, and collapses with and without a guard on them."""
-    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports import stability_report  # noqa: PLC0415
-    from depal.studies.stability import stability as run  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, plot)
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Stability") as progress:
-        result = run(pallets, states, seed, w, threshold, executor=executor, progress=progress)
-    _finish(stability_report(result, seed, time.perf_counter() - start), json_file, plot)
+    finish(fig9_report(result, pallets, seed, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -163,11 +132,11 @@ def case2(
     from depal.app.reports import case2_report  # noqa: PLC0415
     from depal.studies.case2 import case2 as run  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     start = time.perf_counter()
     with progress_bar("Case study 2") as progress:
         results = run(draws=draws, seed=seed, w=w, progress=progress)
-    _finish(case2_report(results, w, seed, time.perf_counter() - start), json_file, plot)
+    finish(case2_report(results, w, seed, time.perf_counter() - start), json_file, plot)
 
 
 @study.command()
@@ -175,8 +144,8 @@ def fig4(json_file: JsonFile = None, plot: PlotFile = None) -> None:
     """Fig. 4: the priority h over the pallet."""
     from depal.app.reports import fig4_report  # noqa: PLC0415 - fast help
 
-    _check_targets(json_file, plot)
-    _finish(fig4_report(), json_file, plot)
+    check_targets(json_file, plot)
+    finish(fig4_report(), json_file, plot)
 
 
 @study.command()
@@ -184,8 +153,8 @@ def fig5(json_file: JsonFile = None, plot: PlotFile = None) -> None:
     """Fig. 5: the graph G over a group of boxes, and T of a requested one."""
     from depal.app.reports import fig5_report  # noqa: PLC0415 - fast help
 
-    _check_targets(json_file, plot)
-    _finish(fig5_report(), json_file, plot)
+    check_targets(json_file, plot)
+    finish(fig5_report(), json_file, plot)
 
 
 @study.command()
@@ -205,88 +174,11 @@ def unload(
     from depal.app.reports import unload_report  # noqa: PLC0415
     from depal.app.unload import unload_all  # noqa: PLC0415
 
-    _check_targets(json_file, None)
+    check_targets(json_file, None)
     start = time.perf_counter()
     with progress_bar("Unloading") as progress:
         results = unload_all(deliveries, requests, w, progress)
-    _finish(unload_report(results, w, time.perf_counter() - start), json_file, None)
-
-
-@study.command()
-def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
-    pallets: Pallets = 1_000,
-    generators: Annotated[
-        str, typer.Option(help="Names of generators, with commas between them.")
-    ] = "guillotine",
-    side_only: Annotated[
-        str, typer.Option(help="Shares of boxes that only a side grasp takes, with commas.")
-    ] = "0,0.25,0.5,0.75,1",
-    cell_pallets: Annotated[
-        int, typer.Option(help="So many of them also with the tool's clearance and reach.", min=0)
-    ] = 100,
-    deliveries: Annotated[
-        str,
-        typer.Option(help="A file of deliveries, FILE#ID for one of them; else those shipped."),
-    ] = "",
-    cell: Annotated[
-        str, typer.Option(help="A cell file, or the name of one that ships.")
-    ] = "default",
-    referee: Annotated[
-        int, typer.Option(help="So many of each are proven again by another program.", min=0)
-    ] = 100,
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-    plot: PlotFile = None,
-) -> None:
-    """Removals before a requested box: the paper's rule and access, beside the proven minimum."""
-    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports import retrieval_report  # noqa: PLC0415
-    from depal.app.retrieval import RetrievalAsked  # noqa: PLC0415
-    from depal.app.retrieval import retrieval as run  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, plot)
-    asked = RetrievalAsked(
-        pallets, generators, side_only, cell_pallets, deliveries, cell, referee, seed
-    )
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Retrieval") as progress:
-        result = run(asked, executor, progress)
-    _finish(retrieval_report(result, asked, time.perf_counter() - start), json_file, plot)
-
-
-@study.command()
-def benchmark(
-    pallets: Pallets = 100,
-    generators: Annotated[
-        str, typer.Option(help="Names of generators, with commas between them.")
-    ] = "guillotine,layered,cubic,columns,dropped",
-    into: Annotated[
-        Path | None,
-        typer.Option(help="Write the table between the marks of this page.", show_default=False),
-    ] = None,
-    seed: Seed = 0,
-    workers: Workers = 1,
-    dask: Dask = None,
-    json_file: JsonFile = None,
-) -> None:
-    """Every policy on every kind of pallet: actions, gap, lateness, collapses, margin, time."""
-    from depal.app.progress import progress_bar  # noqa: PLC0415 - fast help
-    from depal.app.reports.benchmark import benchmark_report, write_into  # noqa: PLC0415
-    from depal.studies.benchmark import benchmark as run  # noqa: PLC0415
-    from depal.studies.pallets import named_generators  # noqa: PLC0415
-    from depal.studies.sweep import executor_for  # noqa: PLC0415
-
-    _check_targets(json_file, None)
-    names = named_generators(generators)
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Benchmark") as progress:
-        rows = run(names, pallets, seed, executor, progress)
-    if into is not None:
-        write_into(into, rows, pallets, seed)
-    _finish(benchmark_report(rows, pallets, seed, time.perf_counter() - start), json_file, None)
+    finish(unload_report(results, w, time.perf_counter() - start), json_file, None)
 
 
 @study.command()
@@ -332,9 +224,9 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.app.throughput import throughput as run  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
-    _check_targets(json_file, plot)
+    check_targets(json_file, plot)
     asked = Asked(deliveries, cell, w, requests, seeds, seed, perception, severity, policy)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Throughput") as progress:
         result = run(asked, keep, executor, progress)
-    _finish(throughput_report(result, asked, time.perf_counter() - start), json_file, plot)
+    finish(throughput_report(result, asked, time.perf_counter() - start), json_file, plot)

@@ -2,7 +2,9 @@
 
 from depal.selection.blocking import Aim, Blocking
 from depal.selection.building import link_prisms
+from depal.selection.counterfactuals import Change
 from depal.selection.decision import Decision, Fate, Outcome, Refused, Scores, Verdict
+from depal.selection.explaining import Explanation, Parts, explain
 from depal.selection.graph import Blocker, BlockingGraph
 from depal.selection.relations import EXACT, PERCEIVED, Relation, Tolerances
 from depal.selection.score import (
@@ -22,10 +24,13 @@ __all__ = [
     "Blocker",
     "Blocking",
     "BlockingGraph",
+    "Change",
     "Decision",
+    "Explanation",
     "Fate",
     "LeafAlone",
     "Outcome",
+    "Parts",
     "PositionWeights",
     "Refused",
     "Relation",
@@ -33,6 +38,7 @@ __all__ = [
     "Scores",
     "Tolerances",
     "Verdict",
+    "explain",
     "geometric_rank",
     "leaf_alone",
     "link_prisms",

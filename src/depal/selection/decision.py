@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 from enum import Enum
-from typing import Generic, TypeVar, cast
+from typing import TYPE_CHECKING, Generic, TypeVar, cast
 
 import numpy as np
 import numpy.typing as npt
@@ -14,7 +14,9 @@ from depal.selection.graph import Blocker
 from depal.selection.links import Array, Indices
 from depal.selection.relations import Relation
 from depal.selection.score import ScoreRule
-from depal.selection.stability.certificate import Certificate
+
+if TYPE_CHECKING:  # it solves programs, which whoever only selects need not load
+    from depal.selection.stability import Certificate
 
 G = TypeVar("G")
 
@@ -101,6 +103,7 @@ class Decision(Generic[G]):
         blocker_table: offsets, blockers and relations by slot.
         refusals: why boxes that nothing blocks could not be grasped, by slot.
         certificate: how firmly the pile stands that the target leaves, where that was asked.
+        by_score: whether the scores alone decided, or some boxes went ahead whatever theirs.
     """
 
     outcome: Outcome
@@ -114,7 +117,8 @@ class Decision(Generic[G]):
     boxes: tuple[Perceived | None, ...] = field(repr=False)
     blocker_table: tuple[Indices, Indices, Indices] = field(repr=False)
     refusals: dict[int, str] = field(repr=False)
-    certificate: Certificate | None = None
+    certificate: "Certificate | None" = None
+    by_score: bool = True
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:

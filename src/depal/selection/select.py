@@ -50,7 +50,8 @@ def select(
         The decision; its target is to be stored next (lines 19 and 23).
     """
     aims, pending = aims_of(graph, requests)
-    scores = _ahead(_scored(graph, aims, rule), graph.ahead(aims))
+    sets = graph.ahead(aims)
+    scores = _ahead(_scored(graph, aims, rule), sets)
     free = scores.slots[graph.links.blockers[scores.slots] == 0]
     refusals: dict[int, str] = {}
     target, grasp = None, None
@@ -72,6 +73,7 @@ def select(
         boxes=graph.by_slot(),
         blocker_table=blocker_table(graph.links),
         refusals=refusals,
+        by_score=not sets,
     )
 
 

@@ -143,3 +143,18 @@ def test_of_two_requests_the_one_that_is_due_goes_first() -> None:
     assert select(graph, wishes, RULE, leaf_alone).target == ROW[2]
     swapped = [Request(0.5, box=BoxId("last"), due=2.0), Request(0.5, box=BoxId("under"), due=90.0)]
     assert select(graph, swapped, RULE, leaf_alone).target == ROW[3]
+
+
+def test_a_request_for_what_nobody_has_seen_takes_its_turn_among_the_others() -> None:
+    """The boxes to remove for it go ahead by its priority and due time."""
+    boxes = BlockingGraph(ROW, EXACT)
+    codes = standings(boxes.prisms, boxes.used_slots, EXACT.overlap, EXACT.slack)
+    ways = free_ways(boxes.prisms, EXACT)
+    hidden = Request(0.5, gtin=PRODUCT, due=1.0)
+    aim = Request(0.5, box=BoxId("last"), due=90.0)
+    pulled = AccessGraph(boxes, ways, codes, sought=[(hidden, 0b0001)])
+    decision = select(pulled, [hidden, aim], RULE, leaf_alone)
+    assert decision.target == ROW[0]
+    assert decision.pending == (hidden,)
+    waiting = AccessGraph(boxes, ways, codes)
+    assert select(waiting, [hidden, aim], RULE, leaf_alone).target == ROW[3]

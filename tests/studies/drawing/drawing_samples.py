@@ -9,6 +9,8 @@ from matplotlib.figure import Figure
 from matplotlib.text import Text
 
 from depal.studies.drawing import (
+    Agreed,
+    Along,
     Emptied,
     PileState,
     Reduction,
@@ -21,6 +23,7 @@ from depal.studies.drawing import (
     priority_field,
     reduction_over_weight,
     scored_front,
+    stability_figure,
     table_figure,
     three_piles,
     throughput_figure,
@@ -189,6 +192,14 @@ def draw_many_runs() -> Figure:
     return throughput_figure(emptied_deliveries(26, 3), SHARES, 400.0, "seeds 0 to 2")
 
 
+def draw_stability() -> Figure:
+    """The margins of made-up unloadings, some of which fall."""
+    along = [0.08, 0.07, 0.05, 0.04, -1.0, 0.02, 0.05, 0.07, 0.1, 0.1]
+    firm = [0.08, 0.07, 0.06, 0.05, 0.04, 0.04, 0.05, 0.07, 0.1, 0.1]
+    agreed = Agreed((414, 5), (1, 180))
+    return stability_figure(Along(along, 0.067), Along(firm, 0.022), agreed, 0.03, "seed 0")
+
+
 FIGURES: Mapping[str, Callable[[], Figure]] = {
     "field": draw_field,
     "graph": draw_graph,
@@ -198,6 +209,7 @@ FIGURES: Mapping[str, Callable[[], Figure]] = {
     "scores": draw_scores,
     "throughput": draw_throughput,
     "many runs": draw_many_runs,
+    "stability": draw_stability,
 }
 
 

@@ -47,6 +47,8 @@ def title_of(figure: Figure) -> str:
 def test_the_public_names_are_these() -> None:
     """What other packages may rely on."""
     assert depal.studies.drawing.__all__ == [
+        "Agreed",
+        "Along",
         "Emptied",
         "PileState",
         "Reduction",
@@ -60,6 +62,7 @@ def test_the_public_names_are_these() -> None:
         "reduction_over_weight",
         "save_figure",
         "scored_front",
+        "stability_figure",
         "table_figure",
         "three_piles",
         "throughput_figure",

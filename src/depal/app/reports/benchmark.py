@@ -39,11 +39,11 @@ def benchmark_report(
     )
 
 
-def write_into(page: Path, rows: Sequence[BenchmarkRow], pallets: int, seed: int) -> None:
-    """Puts the table between the two marks of a page.
+def checked_page(page: Path) -> tuple[str, str]:
+    """What stands before and after the table of a page.
 
     Raises:
-        SettingError: the page cannot be read, or has no such marks.
+        SettingError: the page cannot be read, or has no marks for a table.
     """
     try:
         text = page.read_text(encoding="utf-8")
@@ -53,6 +53,16 @@ def write_into(page: Path, rows: Sequence[BenchmarkRow], pallets: int, seed: int
     _, end, after = rest.partition(END)
     if not (begin and end):
         raise SettingError("--into", f"{page} has no marks", f"{BEGIN} and, below it, {END}")
+    return before, after
+
+
+def write_into(page: Path, rows: Sequence[BenchmarkRow], pallets: int, seed: int) -> None:
+    """Puts the table between the two marks of a page.
+
+    Raises:
+        SettingError: the page cannot be read, or has no such marks.
+    """
+    before, after = checked_page(page)
     table = "\n".join(
         [_line(HEAD), _line(["---"] * len(HEAD)), *(_line(_cells(row)) for row in rows)]
     )

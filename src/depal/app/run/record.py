@@ -10,6 +10,7 @@ import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import asdict
+from enum import Enum
 from pathlib import Path
 from types import TracebackType
 from typing import Self
@@ -23,6 +24,11 @@ from depal.executive.record import JOURNAL, open_record
 from depal.executive.schema import Repository
 
 CHOICES, RESULT = "choices.jsonl", "run.json"
+
+
+def said(value: object) -> object:
+    """What JSON has no word for: an enum by its value."""
+    return value.value if isinstance(value, Enum) else str(value)
 
 
 class Keeper:
@@ -68,7 +74,7 @@ class Keeper:
         """Writes the choices beside the journal."""
         if self.folder is None:
             return
-        lines = [json.dumps(asdict(note), separators=(",", ":")) for note in self.choices]
+        lines = [json.dumps(asdict(n), separators=(",", ":"), default=said) for n in self.choices]
         (self.folder / CHOICES).write_text("".join(f"{line}\n" for line in lines), "utf-8")
 
     def _heard(self, _: int, events: Sequence[ev.Event]) -> None:

@@ -99,7 +99,7 @@ def softmax(scores: Array) -> Array:
 
 @cache
 def shipped_weights() -> Array:
-    """(2 features,) the fitted weights: in the order of `FEATURES`, then the same in flush piles."""
+    """(2 features,) the weights in the order of `FEATURES`, then those of flush piles."""
     text = files("depal.selection.hidden").joinpath("weights.json").read_text(encoding="utf-8")
     shipped = json.loads(text)
     return np.array([shipped[part][name] for part in ("any", "flush") for name in FEATURES])

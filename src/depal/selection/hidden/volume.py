@@ -12,7 +12,6 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.errors import SettingError
-from depal.selection.relations import HALF_HEIGHT, Z
 
 Array = npt.NDArray[np.float64]
 Cells = npt.NDArray[np.bool_]
@@ -138,8 +137,3 @@ def shares_seen(owners: Owners, view: View, boxes: int) -> Array:
             if face:
                 shares[row] = max(shares[row], float((seen == row).sum()) / face)
     return shares
-
-
-def top_of(prisms: Array, rows: Iterable[int]) -> float:
-    """The highest point of some boxes [m]; 0 of none."""
-    return max((float(prisms[row, Z] + prisms[row, HALF_HEIGHT]) for row in rows), default=0.0)

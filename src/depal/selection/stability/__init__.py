@@ -6,6 +6,7 @@ from depal.selection.stability.guard import THRESHOLD, Guarded, PassedOver, guar
 from depal.selection.stability.patches import KNOWN, SEEN, TouchRule
 from depal.selection.stability.pile import DIRECTIONS, Friction, StandingPile
 from depal.selection.stability.program import LEAST
+from depal.selection.stability.watch import Watch
 
 __all__ = [
     "CAMERA",
@@ -25,6 +26,7 @@ __all__ = [
     "Proof",
     "StandingPile",
     "TouchRule",
+    "Watch",
     "guard",
     "weigh",
 ]

@@ -35,7 +35,8 @@ _CORNERS = 8
 _SAME = 1e-9
 """Corners closer together are one [m]."""
 
-_SMALLEST = 256
+_ROOM = 24
+"""So many corners a box are made room for at first; a pile without gaps has some 15."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,10 +84,6 @@ class Touches:
     bodies: Indices
     points: Array
 
-    def __len__(self) -> int:
-        """How many corners."""
-        return len(self.bodies)
-
 
 def touches_of(prisms: Array, rule: TouchRule, deck: float, carried: Indices) -> Touches:
     """Every contact of a pile.
@@ -100,7 +97,7 @@ def touches_of(prisms: Array, rule: TouchRule, deck: float, carried: Indices) ->
     Returns:
         The corners, box by box.
     """
-    room = max(_SMALLEST, 64 * len(prisms))
+    room = _ROOM * (len(prisms) + 2)
     grounded = np.zeros(len(prisms), np.bool_)
     grounded[carried] = True
     while True:
@@ -188,7 +185,7 @@ def _cut(polygons: Array, count: int, nx: float, ny: float, limit: float) -> int
         after = (corner + 1) % count
         far_x, far_y = polygons[0, after, 0], polygons[0, after, 1]
         here, there = nx * x + ny * y - limit, nx * far_x + ny * far_y - limit
-        if here <= 0:
+        if here <= _SAME:
             polygons[1, kept, 0], polygons[1, kept, 1] = x, y
             kept += 1
         if (here < -_SAME and there > _SAME) or (here > _SAME and there < -_SAME):

@@ -130,17 +130,15 @@ def _handed_on(
     tx, ty = -loads[row, 0], -loads[row, 1]
     x, y = middle_x - centres[row, 0], middle_y - centres[row, 1]
     turn = -loads[row, 5] - (x * ty - y * tx)
-    if abs(turn) > _NOTHING * weight and spread <= _FLAT:
-        return False
-    rate = turn / spread if spread > _FLAT else 0.0
+    rate = turn / spread  # pressed corners never lie on one line
     for corner in range(first, last):
-        share = max(normals[corner], 0.0) / weight
+        if normals[corner] <= 0.0:
+            continue
+        share = normals[corner] / weight
         fx = share * (tx - rate * (points[corner, PY] - middle_y))
         fy = share * (ty + rate * (points[corner, PX] - middle_x))
         if abs(fx) + abs(fy) > friction * normals[corner] + _NOTHING * weight:
-            if normals[corner] > 0.0:
-                return False
-            continue
+            return False
         below = bodies[corner, SECOND]
         if below >= 0:
             if loads[below, _DONE] > 0.0:

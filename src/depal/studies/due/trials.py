@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,9 +74,9 @@ class DuePiece:
     pallets: str
     side_only: float
     arrivals: str
-    small: bool
     seed: int
     indices: tuple[int, ...]
+    small: bool = False
 
 
 Result = tuple[float | None, ...]
@@ -154,14 +154,7 @@ def due_rows(
         progress: told how far it is.
     """
     parts = [
-        DuePiece(
-            piece.pallets,
-            piece.side_only,
-            piece.arrivals,
-            piece.small,
-            piece.seed,
-            piece.indices[first : first + _PIECE],
-        )
+        replace(piece, indices=piece.indices[first : first + _PIECE])
         for first in range(0, len(piece.indices), _PIECE)
     ]
     results = [each for part in sweep(due_piece, parts, executor, progress) for each in part]

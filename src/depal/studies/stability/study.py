@@ -40,7 +40,7 @@ class Agreement:
         agree: in how many both say the same.
         missed: of those that fell, called stable.
         alarms: of those that stood, called unstable.
-        highest: the greatest margin of a state that fell [g]; LEAST where none did.
+        highest: the greatest margin without side faces of a state that fell [g]; LEAST for none.
     """
 
     states: int
@@ -61,7 +61,7 @@ class Agreement:
             agree=Share(sum(state.agree for state in compared), len(compared)),
             missed=Share(sum(not state.agree for state in fell), len(fell)),
             alarms=Share(sum(not state.agree for state in stood), len(stood)),
-            highest=max((state.margin for state in fell), default=LEAST),
+            highest=max((state.quick for state in fell), default=LEAST),
         )
 
 
