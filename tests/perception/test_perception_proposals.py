@@ -12,6 +12,7 @@ from depal.geometry import Pose
 from depal.perception.detecting import Expected, Finder, Printed
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
+from depal.perception.proposals.kernels import FEATURES
 from depal.perception.scoring import NAMES, described
 from depal.perception.scoring.features import edge_misfits, misfits
 from depal.perception.seams import directions_of, seams_of
@@ -115,7 +116,7 @@ def test_the_best_come_first_and_none_is_like_another(odds: list[float], most: i
         + [np.full(count, 0.1)] * 2
         + [np.zeros(count)] * 2
     )
-    candidates = Candidates(values, np.zeros((count, 21)))
+    candidates = Candidates(values, np.zeros((count, FEATURES)))
     rows = best(candidates, np.array(odds), most)
     assert len(rows) <= most
     chosen = [odds[row] for row in rows]

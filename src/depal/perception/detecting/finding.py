@@ -11,7 +11,7 @@ from depal.perception.detecting.expected import Expected
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
-from depal.perception.scoring import FaceScore, described, shipped_score
+from depal.perception.scoring import FaceScore, described, doubts, shipped_score
 from depal.perception.seams import Seams, directions_of, seams_of
 
 Floats = npt.NDArray[np.float64]
@@ -104,6 +104,7 @@ class Finder:
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
         odds = self.score.log_odds(features)
+        odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
         values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))
@@ -148,7 +149,7 @@ def candidates_of(
     lines = by_lines(seams, sizes)
     if not prints:
         return lines, np.zeros((len(lines), 0))
-    printed = placed(seams, [each.rectangle for each in prints])
+    printed = placed(seams, [each.rectangle for each in prints], sizes)
     every = Candidates.joined([printed, lines])
     return every, _agreement(every, printed, np.array([each.name.score for each in prints]))
 

@@ -79,12 +79,17 @@ def by_lines(seams: Sequence[Seams], sizes: Sequence[tuple[float, float]]) -> Ca
     return found[np.flatnonzero(good)]
 
 
-def placed(seams: Sequence[Seams], rectangles: Sequence[Rectangle]) -> Candidates:
+def placed(
+    seams: Sequence[Seams],
+    rectangles: Sequence[Rectangle],
+    sizes: Sequence[tuple[float, float]] = (),
+) -> Candidates:
     """Rectangles that something else suggests, measured like the others.
 
     Args:
         seams: the evidence of edges in each direction.
         rectangles: in the raster's plane.
+        sizes: widths and heights of faces that are expected [m]; none where nothing is.
 
     Returns:
         The same rectangles in the same order, but for those that leave the raster.
@@ -98,13 +103,13 @@ def placed(seams: Sequence[Seams], rectangles: Sequence[Rectangle]) -> Candidate
     for k, turned in enumerate(seams):
         rows = np.flatnonzero(np.array(nearest) == k)
         if rows.size:
-            measures[rows] = _measured_at(turned, values[rows])
+            measures[rows] = _measured_at(turned, values[rows], sizes)
     known = np.isfinite(measures[:, 16])
     values[known, 5] = measures[known, 16]
     return Candidates(values, measures)
 
 
-def _measured_at(turned: Seams, values: Floats) -> Floats:
+def _measured_at(turned: Seams, values: Floats, known: Sequence[tuple[float, float]]) -> Floats:
     """What is measured of rectangles (n, 6), as they lie nearest in a turned raster."""
     way, step = turned.raster_from_turned, turned.step
     middles = (values[:, :2] / step - way[:, 2]) @ way[:, :2]
@@ -112,7 +117,7 @@ def _measured_at(turned: Seams, values: Floats) -> Floats:
     height, width = turned.level.shape
     sides = np.round(np.hstack((middles - halves, middles + halves))).astype(np.int64)
     limits = [width - 1, height - 1, width - 1, height - 1]
-    return measured(turned, np.clip(sides, 0, limits), *running(turned))
+    return measured(turned, np.clip(sides, 0, limits), running(turned), known)
 
 
 def best(candidates: Candidates, odds: Floats, most: int) -> npt.NDArray[np.intp]:

@@ -7,7 +7,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from depal.perception.proposals import kernels
+from depal.perception.proposals import kernels, parts, surfaces
 from depal.perception.seams import Seams
 
 Floats = npt.NDArray[np.float64]
@@ -35,6 +35,9 @@ SNAP = 0.016
 NEAR = 0.006
 """Every side moves to the strongest edge so near [m]."""
 
+PART = 0.022
+"""A part of a rectangle is as large as an expected face where its edges differ by no more [m]."""
+
 TINY = 8
 """Narrower rectangles are none [pixel]."""
 
@@ -52,7 +55,7 @@ class Rectangles:
     Attributes:
         seams: the turned raster.
         pixels: (n, 4) left, top, right, bottom.
-        features: (n, FEATURES) as `kernels.measure` says.
+        features: (n, FEATURES) as `measured` says.
     """
 
     seams: Seams
@@ -77,7 +80,7 @@ def between_lines(seams: Seams, sizes: Sequence[tuple[float, float]]) -> Rectang
     pixels = _different(pixels[(wide > TINY) & (high > TINY)])
     value = _rough(pixels, rows, columns)
     pixels = pixels[np.argsort(-value, kind="stable")[:KEPT]]
-    return Rectangles(seams, pixels, measured(seams, pixels, rows, columns))
+    return Rectangles(seams, pixels, measured(seams, pixels, (rows, columns), sizes))
 
 
 def running(seams: Seams) -> tuple[Floats, Floats]:
@@ -85,12 +88,24 @@ def running(seams: Seams) -> tuple[Floats, Floats]:
     return _sums(seams.level), _sums(seams.upright.T)
 
 
-def measured(seams: Seams, pixels: Ints, rows: Floats, columns: Floats) -> Floats:
-    """(n, FEATURES) of rectangles (n, 4) in pixels."""
+def measured(
+    seams: Seams, pixels: Ints, sums: tuple[Floats, Floats], sizes: Sequence[tuple[float, float]]
+) -> Floats:
+    """(n, FEATURES) of rectangles (n, 4) in pixels.
+
+    Args:
+        seams: the evidence of edges.
+        pixels: (n, 4) left, top, right, bottom.
+        sums: of the evidence, as `running` makes them.
+        sizes: widths and heights of faces that are expected [m]; none where nothing is.
+    """
     features = np.zeros((len(pixels), kernels.FEATURES))
-    kernels.sides(rows, columns, pixels, features)
-    kernels.insides(rows, columns, pixels, features)
-    kernels.surfaces(seams.depth, seams.step, pixels, features)
+    known = np.array(sizes, dtype=float).reshape(-1, 2) / seams.step
+    kernels.sides(*sums, pixels, features)
+    kernels.insides(*sums, pixels, features)
+    surfaces.surfaces(seams.depth, seams.step, pixels, features)
+    surfaces.covers(seams.depth, seams.step, pixels, features)
+    parts.seams_between(*sums, pixels, known, PART / seams.step, features)
     return features
 
 

@@ -5,6 +5,8 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from depal.perception.scoring.parts import whole
+
 Floats = npt.NDArray[np.float64]
 
 NAMES = (
@@ -55,6 +57,7 @@ def described(
     Returns:
         (n, len(NAMES)).
     """
+    sizes, unsure = whole(sizes, expected, measured[:, 22:26])
     sides = np.sort(measured[:, 0:4], axis=1)
     thirds = np.sort(measured[:, 4:8], axis=1)
     behind, before = measured[:, 12:16] > BEHIND, measured[:, 12:16] < -BEHIND
@@ -72,7 +75,7 @@ def described(
         behind.sum(axis=1),
         before.sum(axis=1),
         open_,
-        misfits(sizes, expected),
+        np.minimum(misfits(sizes, expected) + unsure * 100, 4.0),
         edge_misfits(sizes, expected),
         np.full(len(sizes), 0.0 if len(expected) else 1.0),
         np.maximum(prints, 0.0),
