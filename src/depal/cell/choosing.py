@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.identity import plausible
+from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.standing import Guard, Standing
@@ -118,6 +119,8 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
     """Why a box should wait until nothing better is free; None where it need not."""
     if work.pile.remembered and work.tries.get(box.id):
         return TRIED
+    if is_laden(box.shape, work.pile.obstacles):
+        return LADEN
     if isinstance(box, Recognition):
         return None
     if box.id in work.pile.unsized:
@@ -134,7 +137,8 @@ def may_pass(work: Workplace, box: Perceived) -> bool:
 UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
 """Reasons that another look may take away."""
 
-GUESSED, FRESH, TRIED = (
+LADEN, GUESSED, FRESH, TRIED = (
+    "something that nobody knows may stand on it",
     "one of its edges is a guess",
     "only the last look has shown it",
     "it was tried in vain",

@@ -20,8 +20,12 @@ Ints = npt.NDArray[np.int64]
 STRIDE = 4
 """Every so many pixels of a depth picture along both edges are looked at."""
 
-AROUND = 0.04
-"""A surface this near to a box belongs to it: errors of depth, and bulging [m]."""
+ALONG, ACROSS = 0.04, 0.015
+"""A surface this near to a box belongs to it, along the view, where depths err and boxes bulge, and
+across the view, where pictures hardly do [m]."""
+
+DEPTHS = (0.0, -ALONG, ALONG, -ALONG / 2, ALONG / 2)
+"""Where along the view a point is looked for in a box [m]: less than twice ACROSS apart."""
 
 PATCH = 5
 """A patch is so many of the thinned pixels high and wide at least."""
@@ -40,6 +44,9 @@ ABOVE = 0.04
 
 TALLEST = 2.2
 """No load is higher [m]."""
+
+THIN = 0.005
+"""No solid is thinner [m]."""
 
 STEP = 0.06
 """Neighbouring columns whose tops differ by less are one solid [m]."""
@@ -76,10 +83,14 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
     free = (local[:, 0] > 0.0) & (local[:, 0] < length)
     free &= (local[:, 1] > 0.0) & (local[:, 1] < width)
     free &= (local[:, 2] > ABOVE) & (local[:, 2] < TALLEST)
+    views = points - np.array(frame.cell_from_camera.translation)
+    views /= np.linalg.norm(views, axis=1, keepdims=True)
     for box in boxes:
-        left = np.flatnonzero(free)
-        off = np.abs(_carried(points[left], box.pose.inverse)) - np.array(box.size) / 2
-        free[left[(off < AROUND).all(axis=1)]] = False
+        half = np.array(box.size) / 2 + ACROSS
+        for way in DEPTHS:
+            left = np.flatnonzero(free)
+            inside = np.abs(_carried(points[left] + way * views[left], box.pose.inverse)) < half
+            free[left[inside.all(axis=1)]] = False
     mask = np.zeros(depth.shape, dtype=np.uint8)
     mask[rows[free], columns[free]] = 1
     patch = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
@@ -116,24 +127,27 @@ def _columns(points: Floats) -> list[OrientedBox]:
         return_inverse=True,
         return_counts=True,
     )
-    low, high = np.full(len(places), np.inf), np.full(len(places), -np.inf)
-    np.minimum.at(low, member.ravel(), points[:, 2])
-    np.maximum.at(high, member.ravel(), points[:, 2])
+    corners = np.full((2, len(places), 3), [[[np.inf]], [[-np.inf]]])
+    np.minimum.at(corners[0], member.ravel(), points)
+    np.maximum.at(corners[1], member.ravel(), points)
     out: list[OrientedBox] = []
-    run: list[float] = []  # x from, x to, y, low, high of what is being joined
-    for (j, i), bottom, top, count in zip(places, low, high, counts, strict=True):
+    run: tuple[Floats, Floats] | None = None  # the corners of what is being joined
+    last = (0, 0)
+    for (j, i), low, high, count in zip(places.tolist(), *corners, counts, strict=True):
         if count < LEAST:
             continue
-        x, y = float(i * CELL), float(j * CELL)
-        if run and run[2] == y and abs(run[1] - x) < CELL / 2 and abs(run[4] - top) < STEP:
-            run[1], run[3], run[4] = x + CELL, min(run[3], bottom), max(run[4], top)
-            continue
-        out += [_solid(run)] if run else []
-        run = [x, x + CELL, y, bottom, top]
-    return [*out, _solid(run)] if run else out
+        if run is not None and last == (j, i - 1) and abs(run[1][2] - high[2]) < STEP:
+            run = np.minimum(run[0], low), np.maximum(run[1], high)
+        else:
+            out += [_solid(*run)] if run is not None else []
+            run = low, high
+        last = (j, i)
+    return [*out, _solid(*run)] if run is not None else out
 
 
-def _solid(run: list[float]) -> OrientedBox:
-    left, right, y, low, high = map(float, run)
-    corner = (left, y, low - CELL / 2)
-    return OrientedBox.from_corner(corner, (right - left, CELL, high - low + CELL / 2))
+def _solid(low: Floats, high: Floats) -> OrientedBox:
+    """From corner to corner, and a bit below."""
+    low = low - (0.0, 0.0, CELL / 2)
+    a, b, c = low.tolist()
+    length, width, height = np.maximum(high - low, THIN).tolist()
+    return OrientedBox.from_corner((a, b, c), (length, width, height))
