@@ -20,6 +20,9 @@ Ints = npt.NDArray[np.int64]
 STRIDE = 4
 """Every so many pixels of a depth picture along both edges are looked at."""
 
+MIDDLE = 5
+"""Depths are the medians of squares of so many pixels: of one pixel they scatter too far."""
+
 ALONG, ACROSS = 0.04, 0.015
 """A surface this near to a box belongs to it, along the view, where depths err and boxes bulge, and
 across the view, where pictures hardly do [m]."""
@@ -27,8 +30,11 @@ across the view, where pictures hardly do [m]."""
 DEPTHS = (0.0, -ALONG, ALONG, -ALONG / 2, ALONG / 2)
 """Where along the view a point is looked for in a box [m]: less than twice ACROSS apart."""
 
-PATCH = 5
+PATCH = 4
 """A patch is so many of the thinned pixels high and wide at least."""
+
+HOLE = 3
+"""Holes in a patch that are narrower than so many of the thinned pixels are none."""
 
 JUMP = 0.02
 """Neighbouring depths that differ by more of themselves are of two surfaces."""
@@ -36,7 +42,7 @@ JUMP = 0.02
 CELL = 0.05
 """Edge of the columns that the rest is gathered in [m]."""
 
-LEAST = 8
+LEAST = 2
 """So many points make a column; fewer are noise."""
 
 ABOVE = 0.04
@@ -75,7 +81,7 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
 
     Only patches count: beside edges depths lie between two surfaces, in lines and specks.
     """
-    depth = np.asarray(frame.depth[::STRIDE, ::STRIDE], dtype=np.float32)
+    depth = _thinned(frame)
     rows, columns = np.nonzero(_even(depth))
     points = _points(frame, depth, rows, columns)
     local = _carried(points, stand.cell_from_pallet.inverse)
@@ -93,8 +99,15 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
             free[left[inside.all(axis=1)]] = False
     mask = np.zeros(depth.shape, dtype=np.uint8)
     mask[rows[free], columns[free]] = 1
-    patch = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
-    return np.asarray(local[patch[rows, columns] > 0])
+    whole = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((HOLE, HOLE), np.uint8))
+    patch = np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
+    return np.asarray(local[free & (patch[rows, columns] > 0)])
+
+
+def _thinned(frame: Frame) -> Narrow:
+    """Every so many pixels of a depth picture, of which each is the middle one around it."""
+    depth = np.ascontiguousarray(frame.depth, dtype=np.float32)
+    return np.asarray(cv2.medianBlur(depth, MIDDLE)[::STRIDE, ::STRIDE])
 
 
 def _even(depth: Narrow) -> npt.NDArray[np.bool_]:
