@@ -51,8 +51,8 @@ ABOVE = 0.04
 TALLEST = 2.2
 """No load is higher [m]."""
 
-THIN = 0.005
-"""No solid is thinner [m]."""
+RIM = 0.012
+"""So much of a surface is lost at each of its edges [m]."""
 
 STEP = 0.06
 """Neighbouring columns whose tops differ by less are one solid [m]."""
@@ -159,8 +159,9 @@ def _columns(points: Floats) -> list[OrientedBox]:
 
 
 def _solid(low: Floats, high: Floats) -> OrientedBox:
-    """From corner to corner, and a bit below."""
-    low = low - (0.0, 0.0, CELL / 2)
+    """From corner to corner, a bit below, and around: the rims of patches are not even."""
+    low = low - np.array((RIM, RIM, CELL / 2))
+    high = high + np.array((RIM, RIM, 0.0))
     a, b, c = low.tolist()
-    length, width, height = np.maximum(high - low, THIN).tolist()
+    length, width, height = (high - low).tolist()
     return OrientedBox.from_corner((a, b, c), (length, width, height))
