@@ -51,7 +51,7 @@ ABOVE = 0.04
 TALLEST = 2.2
 """No load is higher [m]."""
 
-RIM = 0.012
+RIM = 0.02
 """So much of a surface is lost at each of its edges [m]."""
 
 STEP = 0.06
