@@ -15,7 +15,7 @@ DECK = CELL.pallet.cell_from_pallet.translation[2]
 
 @given(st.floats(DECK + THIN + 0.03, 1.5))
 def test_nothing_is_below_what_stands_there_but_what_carries_it(height: float) -> None:
-    """A top that no box explains is an obstacle from the deck up: nothing moves through under it."""
+    """A top that no box explains is an obstacle from the deck up: nothing moves under it."""
     plate = OrientedBox.upright((1.6, 0.1, height), (0.2, 0.2, 0.02))
     pile = Pile()
     pile.see(View(0.0, (), remembered=True, obstacles=(plate,)))

@@ -3,6 +3,7 @@
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
+from depal.cell.apart import standing_apart
 from depal.cell.identity import plausible
 from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
@@ -78,7 +79,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
 
 def blocking_of(work: Workplace, desk: Desk) -> Blocking:
     """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
-    graph = BlockingGraph(work.pile.boxes)
+    graph = BlockingGraph(standing_apart(work.pile))
     if work.settings.policy is Policy.PAPER:
         return graph
     kinematics = desk.planner.mover.body.kinematics
