@@ -165,3 +165,11 @@ def test_what_a_held_box_may_be_lies_in_its_bulk(
             assert held_side == pytest.approx(size[k] / 2)
         assert max(-low, high) >= size[k] / 2 + beyond[k] - 1e-9
         assert min(-low, high) >= size[k] / 2 - 1e-9
+
+
+def test_a_box_that_weighs_like_nothing_of_its_size_may_be_higher_than_all() -> None:
+    """Its product is not on the note, and its height a guess where only the top shows."""
+    delivery = note(product((0.22, 0.22, 0.2), 6.4, "a"), product((0.4, 0.1, 0.3), 7.8, "b"))
+    seen = (0.22, 0.22, 0.2)
+    assert seen[2] + beyond_seen(delivery, seen, 3.0)[2] > 0.3
+    assert beyond_seen(delivery, seen, 6.4) == (0.0, 0.0, 0.0)

@@ -1,6 +1,7 @@
 """Where a surface is, something is: what no box explains is an obstacle, and nothing else."""
 
 import numpy as np
+import numpy.typing as npt
 import pytest
 
 from depal.cell.files import shipped_cell
@@ -21,7 +22,22 @@ def box(x: float, y: float, size: tuple[float, float, float] = SIZE) -> Oriented
 def frame_of(boxes: list[OrientedBox], noise: float = 0.0) -> Frame:
     """What a small camera before the pallet measures: boxes, and a wall behind."""
     turn = np.array([[0.0, 0.0, 1.0], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]])
-    eye = np.array([0.0, 0.0, 0.6])
+    return taken(np.array([0.0, 0.0, 0.6]), turn, boxes, noise)
+
+
+def from_above(boxes: list[OrientedBox], noise: float) -> Frame:
+    """What one above the pallet measures: boxes, and something far below."""
+    turn = np.array([[0.0, -1.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+    return taken(np.array([1.6, 0.0, 2.0]), turn, boxes, noise)
+
+
+def taken(
+    eye: npt.NDArray[np.float64],
+    turn: npt.NDArray[np.float64],
+    boxes: list[OrientedBox],
+    noise: float,
+) -> Frame:
+    """What a camera at a pose measures."""
     v, u = np.meshgrid(np.arange(120.0), np.arange(160.0), indexing="ij")
     rays = np.stack(((u - 79.5) / 150, (v - 59.5) / 150, np.ones_like(u)), axis=-1) @ turn.T
     depth = np.full(u.shape, 4.0)
@@ -69,3 +85,15 @@ def test_an_empty_pallet_has_no_obstacles() -> None:
     """Nor has a look without pictures."""
     assert solids([], []) == ()
     assert unexplained([], [], CELL.pallet) == ()
+
+
+def test_a_box_that_was_missed_behind_another_is_seen_from_above() -> None:
+    """Flush, of the same height, and narrow: what is believed before it does not swallow it."""
+    front, missed = box(1.6, 0.0), box(1.82, 0.0, (0.104, 0.4, 0.3))
+    found = unexplained([from_above([front, missed], 0.004)], [front], CELL.pallet)
+    corners = np.concatenate([solid.corners for solid in found])
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    assert low[0] > 1.75
+    assert (low[0], high[0]) == pytest.approx((1.77, 1.872), abs=0.04)
+    assert (low[1], high[1]) == pytest.approx((-0.2, 0.2), abs=0.04)
+    assert high[2] == pytest.approx(DECK + 0.3, abs=0.03)

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
@@ -297,3 +297,19 @@ def test_every_box_of_a_delivery_can_be_picked_from_where_the_last_one_was_left(
                 assert isinstance(put, Put)
                 start = put.retreat.path[-1]
                 break
+
+
+def test_a_box_that_may_be_less_high_is_let_down_by_so_much_more() -> None:
+    """Else it would be let go in the air; what it stands on ends the descent."""
+    job = EVERY[0]
+    pick = pick_of(job)
+    scene = job.scene.without("b")
+    berth = berth_of(job, pick, PlaceId("trolley_2/level_2"))
+    ends = []
+    for short in (0.0, 0.05):
+        put = MOVER.put(
+            (pick.out,), pick.out.path[-1], replace(berth, short=short), scene, Effort()
+        )
+        assert isinstance(put, Put)
+        ends.append(MOVER.body.kinematics.flange(put.descent.path[-1]).translation[2])
+    assert ends[0] - ends[1] == pytest.approx(0.05, abs=1e-6)

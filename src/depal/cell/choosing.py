@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
+from depal.cell.apart import standing_apart
 from depal.cell.identity import plausible
+from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.seeking import searches
@@ -84,7 +86,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
 
 def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:
     """Which box blocks which, by the policy: G, or the ways that this tool and arm have."""
-    graph = BlockingGraph(work.pile.boxes)
+    graph = BlockingGraph(standing_apart(work.pile))
     if work.settings.policy is Policy.PAPER:
         return graph
     kinematics = desk.planner.mover.body.kinematics
@@ -126,6 +128,8 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
     """Why a box should wait until nothing better is free; None where it need not."""
     if work.pile.remembered and work.tries.get(box.id):
         return TRIED
+    if is_laden(box.shape, work.pile.obstacles):
+        return LADEN
     if isinstance(box, Recognition):
         return None
     if box.id in work.pile.unsized:
@@ -142,7 +146,8 @@ def may_pass(work: Workplace, box: Perceived) -> bool:
 UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
 """Reasons that another look may take away."""
 
-GUESSED, FRESH, TRIED = (
+LADEN, GUESSED, FRESH, TRIED = (
+    "something that nobody knows may stand on it",
     "one of its edges is a guess",
     "only the last look has shown it",
     "it was tried in vain",

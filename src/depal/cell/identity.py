@@ -15,6 +15,9 @@ SIZE_SPARE = 0.03
 
 EDGES = 3
 
+HIGHER = 0.05
+"""So much higher than the highest product of the note a box of another one may be [m]."""
+
 ALIKE = 0.015
 """Two ways to turn a product fit equally well when they differ by less [m]."""
 
@@ -94,7 +97,8 @@ def beyond_seen(delivery: Delivery, size: Vector3, mass: float | None = None) ->
     """How much longer a box may be than it was seen, at either end of its axes [m].
 
     Of two products with like tops the wrong one is soon believed, and boxes that stand flush are
-    seen as one: an edge counts as wrong where the other two are those of a product.
+    seen as one: an edge counts as wrong where the other two are those of a product. A box that
+    weighs like none of these is of a product that nobody knows: its height was guessed.
 
     Args:
         delivery: what it can be.
@@ -102,14 +106,31 @@ def beyond_seen(delivery: Delivery, size: Vector3, mass: float | None = None) ->
         mass: as felt [kg]; None where it was not weighed.
     """
     longest = np.array(size)
-    for product in plausible(delivery, size, unsized=True):
-        if mass is None or weighs_like(product, mass):
-            for way in _ways(product.size):
-                off = sorted(abs(a - b) for a, b in zip(way, size, strict=True))
-                if off[1] <= SIZE_SPARE:
-                    longest = np.maximum(longest, way)
+    like = [
+        product
+        for product in plausible(delivery, size, unsized=True)
+        if mass is None or weighs_like(product, mass)
+    ]
+    if mass is not None and not like:
+        longest[2] += strange_height(delivery, size[2])
+    for product in like:
+        for way in _ways(product.size):
+            off = sorted(abs(a - b) for a, b in zip(way, size, strict=True))
+            if off[1] <= SIZE_SPARE:
+                longest = np.maximum(longest, way)
     a, b, c = (longest - size).tolist()
     return (a, b, c)
+
+
+def strange_height(delivery: Delivery, height: float) -> float:
+    """How much higher a box may be than it was taken to be [m]: its product may be unknown.
+
+    Args:
+        delivery: the other boxes, of which the highest are not much less high.
+        height: as it was guessed or seen [m].
+    """
+    highest = max((product.size[2] for product in delivery.products.values()), default=height)
+    return max(highest - height, 0.0) + HIGHER
 
 
 def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:

@@ -145,7 +145,7 @@ class Carrying:
     def _berth(self, load: Load, place: PlaceId, spot: Spot) -> Berth:
         cell_from_place = self._work.layout.places[place].cell_from_place
         target = target_of(cell_from_place, spot, turn_into(load))
-        return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift)
+        return Berth(load.grasp, load.size, cell_from_place, target, MARGINS.lift, load.short)
 
     def _promise(self, plan: CarryPlan) -> None:
         """Nobody else gets the place, and the motion after the next begins there."""

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from depal.cell.identity import beyond_seen
+from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
 from depal.cell.planning.planner import Planner
@@ -19,6 +19,9 @@ from depal.geometry import Vector3
 from depal.motion.grasping import EXACT, Holding, grasps
 from depal.motion.moves import OPEN, NoMotion, Part, Pick
 from depal.ports import Trajectory
+
+ROOM = 0.03
+"""With a sight that errs a box is taken straight on until so much around it is clear [m]."""
 
 MOVED = 0.008
 """A plan is good for a box that is seen this far from where it was planned for [m]."""
@@ -55,14 +58,14 @@ class Picking:
         if not only:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
         scene = self._promises.scene(work.pile)
-        beyond = self._beyond(box)
-        found = self._planner.pick(start, box.shape, ways, scene, str(box.id), beyond)
-        if isinstance(found, NoMotion) and beyond != EXACT:
-            beyond = EXACT
-            found = self._planner.pick(start, box.shape, ways, scene, str(box.id))
-        if isinstance(found, NoMotion):
-            return str(found)
-        return self._timed(box, mass, found, beyond)
+        reason = ""
+        for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
+            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room)
+            if not isinstance(found, NoMotion):
+                beyond = EXACT if room == EXACT else self._beyond(box)
+                return self._timed(box, mass, found, beyond)
+            reason = str(found)
+        return reason
 
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
@@ -70,6 +73,20 @@ class Picking:
         if isinstance(box, Recognition) or not work.pile.remembered:
             return EXACT
         return beyond_seen(work.delivery, box.shape.size)
+
+    def _wide(self, box: Perceived) -> Vector3:
+        """The same and the room around it that a box is taken straight out of.
+
+        What stands close by may reach farther than it looks; a box without a name may be of a
+        product that is not on the note, and higher than those of its size.
+        """
+        a, b, c = self._beyond(box)
+        work = self._work
+        if not work.pile.remembered:
+            return a, b, c
+        if not isinstance(box, Recognition):
+            c = max(c, strange_height(work.delivery, box.shape.size[2]))
+        return a + ROOM, b + ROOM, c
 
     def ways(self, box: Perceived) -> tuple[Grasp, ...]:
         """Every way to hold a box on the pallet, best first."""

@@ -49,6 +49,7 @@ class Load:
         lead: straight parts that come first: the way out of the pile.
         start: (6,) where free space begins [rad].
         beyond: how much longer the box may be along its own axes, at either end [m].
+        short: how much less high it may be than it is taken to be, held at its top [m].
     """
 
     box: BoxId
@@ -58,12 +59,13 @@ class Load:
     lead: tuple[Part, ...]
     start: Array
     beyond: Vector3 = EXACT
+    short: float = 0.0
 
     @property
     def bulky(self) -> "Load":
         """The smallest box around all that the box can be, held the same way."""
         grasp, size = swollen(self.grasp, self.size, self.beyond)
-        return replace(self, grasp=grasp, size=size, beyond=EXACT)
+        return replace(self, grasp=grasp, size=size, beyond=EXACT, short=size[2] - self.size[2])
 
 
 @dataclass(frozen=True, slots=True, eq=False)

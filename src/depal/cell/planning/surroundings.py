@@ -61,6 +61,11 @@ class Surroundings:
         cases += [
             (f"something before the camera {k}", solid) for k, solid in enumerate(pile.obstacles)
         ]
+        cases += [
+            (f"what is under something before the camera {k}", column)
+            for k, solid in enumerate(pile.obstacles)
+            if (column := self._column(solid)) is not None
+        ]
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
         return Scene.of(self._fixed, cases)
 

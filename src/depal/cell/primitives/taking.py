@@ -73,8 +73,8 @@ class Taking:
         if slipped is not None:
             return await self._let_go(plan, slipped)
         size = plan.box.shape.size
-        beyond = plan.beyond
-        if beyond != EXACT:
+        beyond = EXACT
+        if self._work.pile.remembered and not isinstance(plan.box, Recognition):
             beyond = beyond_seen(self._work.delivery, size, mass)
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)

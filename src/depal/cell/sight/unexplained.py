@@ -20,11 +20,21 @@ Ints = npt.NDArray[np.int64]
 STRIDE = 4
 """Every so many pixels of a depth picture along both edges are looked at."""
 
-AROUND = 0.04
-"""A surface this near to a box belongs to it: errors of depth, and bulging [m]."""
+MIDDLE = 5
+"""Depths are the medians of squares of so many pixels: of one pixel they scatter too far."""
 
-PATCH = 5
+ALONG, ACROSS = 0.04, 0.015
+"""A surface this near to a box belongs to it, along the view, where depths err and boxes bulge, and
+across the view, where pictures hardly do [m]."""
+
+DEPTHS = (0.0, -ALONG, ALONG, -ALONG / 2, ALONG / 2)
+"""Where along the view a point is looked for in a box [m]: less than twice ACROSS apart."""
+
+PATCH = 4
 """A patch is so many of the thinned pixels high and wide at least."""
+
+HOLE = 3
+"""Holes in a patch that are narrower than so many of the thinned pixels are none."""
 
 JUMP = 0.02
 """Neighbouring depths that differ by more of themselves are of two surfaces."""
@@ -32,7 +42,7 @@ JUMP = 0.02
 CELL = 0.05
 """Edge of the columns that the rest is gathered in [m]."""
 
-LEAST = 8
+LEAST = 2
 """So many points make a column; fewer are noise."""
 
 ABOVE = 0.04
@@ -40,6 +50,9 @@ ABOVE = 0.04
 
 TALLEST = 2.2
 """No load is higher [m]."""
+
+RIM = 0.02
+"""So much of a surface is lost at each of its edges [m]."""
 
 STEP = 0.06
 """Neighbouring columns whose tops differ by less are one solid [m]."""
@@ -68,7 +81,7 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
 
     Only patches count: beside edges depths lie between two surfaces, in lines and specks.
     """
-    depth = np.asarray(frame.depth[::STRIDE, ::STRIDE], dtype=np.float32)
+    depth = _thinned(frame)
     rows, columns = np.nonzero(_even(depth))
     points = _points(frame, depth, rows, columns)
     local = _carried(points, stand.cell_from_pallet.inverse)
@@ -76,14 +89,25 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
     free = (local[:, 0] > 0.0) & (local[:, 0] < length)
     free &= (local[:, 1] > 0.0) & (local[:, 1] < width)
     free &= (local[:, 2] > ABOVE) & (local[:, 2] < TALLEST)
+    views = points - np.array(frame.cell_from_camera.translation)
+    views /= np.linalg.norm(views, axis=1, keepdims=True)
     for box in boxes:
-        left = np.flatnonzero(free)
-        off = np.abs(_carried(points[left], box.pose.inverse)) - np.array(box.size) / 2
-        free[left[(off < AROUND).all(axis=1)]] = False
+        half = np.array(box.size) / 2 + ACROSS
+        for way in DEPTHS:
+            left = np.flatnonzero(free)
+            inside = np.abs(_carried(points[left] + way * views[left], box.pose.inverse)) < half
+            free[left[inside.all(axis=1)]] = False
     mask = np.zeros(depth.shape, dtype=np.uint8)
     mask[rows[free], columns[free]] = 1
-    patch = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
-    return np.asarray(local[patch[rows, columns] > 0])
+    whole = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((HOLE, HOLE), np.uint8))
+    patch = np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
+    return np.asarray(local[free & (patch[rows, columns] > 0)])
+
+
+def _thinned(frame: Frame) -> Narrow:
+    """Every so many pixels of a depth picture, of which each is the middle one around it."""
+    depth = np.ascontiguousarray(frame.depth, dtype=np.float32)
+    return np.asarray(cv2.medianBlur(depth, MIDDLE)[::STRIDE, ::STRIDE])
 
 
 def _even(depth: Narrow) -> npt.NDArray[np.bool_]:
@@ -116,24 +140,28 @@ def _columns(points: Floats) -> list[OrientedBox]:
         return_inverse=True,
         return_counts=True,
     )
-    low, high = np.full(len(places), np.inf), np.full(len(places), -np.inf)
-    np.minimum.at(low, member.ravel(), points[:, 2])
-    np.maximum.at(high, member.ravel(), points[:, 2])
+    corners = np.full((2, len(places), 3), [[[np.inf]], [[-np.inf]]])
+    np.minimum.at(corners[0], member.ravel(), points)
+    np.maximum.at(corners[1], member.ravel(), points)
     out: list[OrientedBox] = []
-    run: list[float] = []  # x from, x to, y, low, high of what is being joined
-    for (j, i), bottom, top, count in zip(places, low, high, counts, strict=True):
+    run: tuple[Floats, Floats] | None = None  # the corners of what is being joined
+    last = (0, 0)
+    for (j, i), low, high, count in zip(places.tolist(), *corners, counts, strict=True):
         if count < LEAST:
             continue
-        x, y = float(i * CELL), float(j * CELL)
-        if run and run[2] == y and abs(run[1] - x) < CELL / 2 and abs(run[4] - top) < STEP:
-            run[1], run[3], run[4] = x + CELL, min(run[3], bottom), max(run[4], top)
-            continue
-        out += [_solid(run)] if run else []
-        run = [x, x + CELL, y, bottom, top]
-    return [*out, _solid(run)] if run else out
+        if run is not None and last == (j, i - 1) and abs(run[1][2] - high[2]) < STEP:
+            run = np.minimum(run[0], low), np.maximum(run[1], high)
+        else:
+            out += [_solid(*run)] if run is not None else []
+            run = low, high
+        last = (j, i)
+    return [*out, _solid(*run)] if run is not None else out
 
 
-def _solid(run: list[float]) -> OrientedBox:
-    left, right, y, low, high = map(float, run)
-    corner = (left, y, low - CELL / 2)
-    return OrientedBox.from_corner(corner, (right - left, CELL, high - low + CELL / 2))
+def _solid(low: Floats, high: Floats) -> OrientedBox:
+    """From corner to corner, a bit below, and around: the rims of patches are not even."""
+    low = low - np.array((RIM, RIM, CELL / 2))
+    high = high + np.array((RIM, RIM, 0.0))
+    a, b, c = low.tolist()
+    length, width, height = (high - low).tolist()
+    return OrientedBox.from_corner((a, b, c), (length, width, height))

@@ -26,6 +26,7 @@ class Berth:
         into: `cell_from_place`: x is the way in.
         target: `cell_from_box` where the box will stand.
         lift: how far above it the box is pushed in [m].
+        short: how much less high the box may be than it is taken to be, held at its top [m].
     """
 
     grasp: Grasp
@@ -33,6 +34,7 @@ class Berth:
     into: Pose
     target: Pose
     lift: float
+    short: float = 0.0
 
     @property
     def outward(self) -> Vector3:
@@ -129,7 +131,7 @@ def _options(
         if isinstance(back, str):
             reasons.append(back)
             continue
-        down = straight(kinematics, q, (0.0, 0.0, -berth.lift - BELOW), pitch=FINE)
+        down = straight(kinematics, q, (0.0, 0.0, -berth.lift - berth.short - BELOW), pitch=FINE)
         low = straight(kinematics, q, (0.0, 0.0, -berth.lift), pitch=FINE)
         if down is None or low is None:
             reasons.append("no reach to set it down")

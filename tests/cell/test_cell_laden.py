@@ -1,0 +1,35 @@
+"""What unknown surfaces above a box mean: it may carry them."""
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from depal.cell.laden import HIGHER, OVER, is_laden
+from depal.geometry import OrientedBox
+
+SIZE = (0.4, 0.2, 0.2)
+BOX = OrientedBox.upright((1.6, 0.0, 0.4), SIZE)
+TOP = 0.5
+
+
+def solid(reach: float, above: float) -> OrientedBox:
+    """Behind the box, over its back by `reach`, its top `above` the box's top [m]."""
+    return OrientedBox.from_corner((1.8 - reach, -0.1, TOP + above - 0.03), (0.3, 0.2, 0.03))
+
+
+@given(st.floats(OVER + 0.001, 0.3), st.floats(HIGHER + 0.001, 0.5))
+def test_what_reaches_over_a_box_and_is_higher_may_stand_on_it(reach: float, above: float) -> None:
+    """However little of it does: a strip at the back carries as well."""
+    assert is_laden(BOX, [solid(reach, above)])
+
+
+@given(st.floats(-0.2, OVER - 0.001), st.floats(-0.2, 0.5))
+def test_what_stands_beside_a_box_does_not_stand_on_it(reach: float, above: float) -> None:
+    """Flush, with the errors of a depth picture."""
+    assert not is_laden(BOX, [solid(reach, above)])
+
+
+@given(st.floats(-0.2, 0.3), st.floats(-0.2, HIGHER - 0.001))
+def test_what_is_not_higher_than_a_box_does_not_stand_on_it(reach: float, above: float) -> None:
+    """It is its own top, a bit off, or what it stands beside."""
+    assert not is_laden(BOX, [solid(reach, above)])
+    assert not is_laden(BOX, [])
