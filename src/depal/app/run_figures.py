@@ -1,8 +1,6 @@
 """What `depal bench simulation` says of whole runs: a delivery by truth, by camera; case 2."""
 
 import math
-import resource
-import sys
 from collections.abc import Callable
 from dataclasses import replace
 from statistics import median
@@ -18,6 +16,7 @@ from depal.errors import MissingPartError
 from depal.logistics.store import random_requests
 from depal.studies import paper
 from depal.studies.bench import Figure, Peer
+from depal.studies.bench.memory import peak_megabytes
 from depal.studies.case2 import REQUESTED
 from depal.studies.sweep import Progress, no_progress
 
@@ -185,7 +184,5 @@ def rank_of(box: BoxId, outcome: Outcome) -> float:
 
 
 def _memory() -> Figure:
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    megabytes = peak / (1e6 if sys.platform == "darwin" else 1e3)
     name = "peak memory of the process after all runs"
-    return Figure(name, megabytes, "MB", PEAK, "lower", 1)
+    return Figure(name, peak_megabytes(), "MB", PEAK, "lower", 1)

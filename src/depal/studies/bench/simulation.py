@@ -4,8 +4,6 @@ Measured in the default cell with the largest delivery that ships.
 """
 
 import itertools
-import resource
-import sys
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -30,6 +28,7 @@ from depal.logistics import shipped_deliveries
 from depal.ports import Trajectory
 from depal.simulation import SimulatedCell, World, build, cases_of
 from depal.studies.bench.figure import Figure
+from depal.studies.bench.memory import peak_megabytes
 from depal.studies.sweep import Progress, no_progress
 
 BOXES = 40
@@ -208,9 +207,7 @@ def _look(repetitions: int = 20) -> Figure:
 
 
 def _memory() -> Figure:
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-    megabytes = peak / (1e6 if sys.platform == "darwin" else 1e3)
-    return Figure("peak memory of the process", megabytes, "MB", 1500.0, "lower", 1)
+    return Figure("peak memory of the process", peak_megabytes(), "MB", 1500.0, "lower", 1)
 
 
 def _sweep(layout: CellLayout) -> tuple[Trajectory, Trajectory]:
