@@ -175,9 +175,7 @@ def _trial(model: Standing, rule: Rule) -> Trial:
         actions=single.order.index(box) if box in single.order else len(single.order),
         least=single.least,
         lateness=several.lateness,
-        fell=any(
-            model.falls(gone) for gone, _ in steps if model.pile.quick_bound(gone) < LOOKED_AT
-        ),
+        fell=any(model.falls(gone) for gone, margin in steps if margin < LOOKED_AT),
         margin=min((min(margin, LOOKED_AT) for _, margin in steps), default=LOOKED_AT),
         seconds=several.seconds + single.seconds,
     )
