@@ -97,7 +97,7 @@ def _draw_margins(axes: Axes, without: Along, guarded: Along, threshold: float) 
     axes.set_xlim(0.0, 100.0)
     axes.set_ylim(LOWEST - 0.012, 1.25 * highest)
     words = f"threshold {threshold:g} g"
-    write(axes, (1.5, threshold + 0.03 * (1.25 * highest - LOWEST)), words, SMALL)
+    write(axes, (1.5, threshold - 0.035 * (1.25 * highest - LOWEST)), words, SMALL)
     axes.set_xlabel("boxes stored [%]", color=GREY, size=9.5, family=TYPEFACE)
 
 
