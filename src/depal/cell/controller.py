@@ -20,9 +20,23 @@ class Controller:
     """One cell at work."""
 
     def __init__(
-        self, work: Workplace, desk: Desk, notes: Journalist, tasks: Repository, journal: Journal
+        self,
+        work: Workplace,
+        desk: Desk,
+        notes: Journalist,
+        tasks: Repository,
+        journal: Journal,
+        engine: Engine | None = None,
     ) -> None:
         """Binds every action of the task files to its primitive.
+
+        Args:
+            work: what the cell believes.
+            desk: plans its motions.
+            notes: told what happens.
+            tasks: what the cell can do.
+            journal: written before anything is done.
+            engine: folded from that journal; None for one that knows nothing.
 
         Raises:
             TaskError: the task files name an action that this cell does not know.
@@ -30,7 +44,9 @@ class Controller:
         self.work = work
         self.desk = desk
         primitives, probes = bindings(work, desk, notes)
-        self.runtime = Runtime(Engine(tasks), journal, work.ports.clock, primitives, probes)
+        self.runtime = Runtime(
+            engine or Engine(tasks), journal, work.ports.clock, primitives, probes
+        )
         work.bind(self.runtime)
         self._notes = notes
         self._ended = asyncio.Event()
@@ -45,7 +61,17 @@ class Controller:
         """
         for request in requests:
             self.work.wishes.add(request)
-        self.runtime.allocate(Call(EMPTY, (PALLET,)))
+        self.begin()
+        await self.finish()
+
+    def begin(self) -> None:
+        """Allocates `depalletize`, unless it is allocated."""
+        trees = self.runtime.engine.state.trees.values()
+        if not any(tree.root.node.schema.name == EMPTY for tree in trees):
+            self.runtime.allocate(Call(EMPTY, (PALLET,)))
+
+    async def finish(self) -> None:
+        """Waits until the pallet is empty and everything that was begun has ended."""
         await self._ended.wait()
         await self.runtime.close()
 

@@ -1,5 +1,6 @@
 """What became of each box that left the pallet for good, in order."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import Enum
 
@@ -67,6 +68,11 @@ class Departures:
     def has_ended(self, box: BoxId) -> bool:
         """Whether it is known what became of a box."""
         return box in self._ended
+
+    @property
+    def times(self) -> Mapping[BoxId, float]:
+        """When each box that is off the pallet left it [s], in that order."""
+        return self._left
 
     @property
     def count(self) -> int:

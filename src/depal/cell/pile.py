@@ -150,6 +150,18 @@ class Pile:
         return tuple(self._left.values())
 
     @property
+    def departed(self) -> Mapping[BoxId, Gtin | None]:
+        """The boxes that were lifted off, and their products where they are known."""
+        return self._left
+
+    def away(self, box: BoxId, at: float, gtin: Gtin | None) -> None:
+        """A box was lifted off before anybody remembers [s]."""
+        self._left[box] = gtin
+        if gtin is not None:
+            self._read[box] = gtin
+        self.forget(box, at)
+
+    @property
     def taken(self) -> Mapping[BoxId, float]:
         """The boxes that were lifted off, and when [s]."""
         return self._taken

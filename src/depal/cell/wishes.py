@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from typing import Any, Self
 
 from depal.domain import BoxId, Gtin, Request
 
@@ -15,12 +16,16 @@ class Wish:
         served: when its box left the pallet [s], None while it has not.
         box: the box that served it.
         boxes_before: how many boxes left the pallet between its arrival and its own.
+        cancelled: whether it is not wanted any more.
+        key: its name outside of the run; empty where it has none.
     """
 
     request: Request
     served: float | None = None
     box: BoxId | None = None
     boxes_before: int = 0
+    cancelled: bool = False
+    key: str = ""
 
 
 class Wishes:
@@ -38,9 +43,31 @@ class Wishes:
         """How many there are."""
         return len(self._wishes)
 
-    def add(self, request: Request) -> None:
+    @classmethod
+    def restored(cls, wishes: Sequence[Wish]) -> Self:
+        """As they were before a restart."""
+        found = cls(())
+        found._wishes = list(wishes)
+        return found
+
+    def add(self, request: Request, key: str = "") -> None:
         """One more request."""
-        self._wishes.append(Wish(request))
+        self._wishes.append(Wish(request, key=key))
+
+    def change(self, key: str, request: Request) -> bool:
+        """The same request with another priority or due time; False where it has ended."""
+        return self._replace(key, request=request)
+
+    def cancel(self, key: str) -> bool:
+        """A request is not wanted any more; False where it has ended."""
+        return self._replace(key, cancelled=True)
+
+    def _replace(self, key: str, **changes: Any) -> bool:
+        for number, wish in enumerate(self._wishes):
+            if wish.key == key and wish.served is None and not wish.cancelled:
+                self._wishes[number] = replace(wish, **changes)
+                return True
+        return False
 
     def open(self, now: float) -> tuple[Request, ...]:
         """The requests that have arrived and are not served."""
@@ -82,7 +109,7 @@ class Wishes:
         return [
             (number, wish)
             for number, wish in enumerate(self._wishes)
-            if wish.served is None and wish.request.arrived <= now
+            if wish.served is None and not wish.cancelled and wish.request.arrived <= now
         ]
 
     def _best(self, box: BoxId, gtin: Gtin | None, now: float) -> int | None:

@@ -2,13 +2,15 @@
 
 import asyncio
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
 from depal.cell.charges import Charges
 from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.feedback import Feedback
+from depal.cell.gate import Gate
+from depal.cell.hand import Hand, Phase
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
@@ -149,6 +151,10 @@ class Ending:
             await self._over.wait()
 
 
+def nothing_kept() -> None:
+    """A run that no restart has to go on with."""
+
+
 @dataclass(slots=True)
 class Workplace:
     """What the primitives share.
@@ -172,6 +178,9 @@ class Workplace:
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
         feedback: told what the work finds out about boxes.
+        hand: the physical step that the box in the gripper is in.
+        keep: writes what must not be forgotten; called before and after every such step.
+        gate: closed while no further box is to be begun.
     """
 
     layout: CellLayout
@@ -191,6 +200,9 @@ class Workplace:
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
     feedback: Feedback = field(default_factory=Feedback)
+    hand: Hand | None = None
+    keep: Callable[[], None] = nothing_kept
+    gate: Gate = field(default_factory=Gate)
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None
@@ -238,6 +250,23 @@ class Workplace:
         self.departures.leaves(box, self.now)
         product = self.product_of(box)
         self.wishes.left(box, product.gtin if product else None, self.now)
+        self.steps(Phase.HELD)
+
+    def begins(self, hand: Hand) -> None:
+        """A physical step is about to begin: it is written before anything moves."""
+        self.hand = hand
+        self.keep()
+
+    def steps(self, phase: Phase, place: PlaceId | None = None) -> None:
+        """The box in the gripper comes into another phase: written before anything moves."""
+        held = self.held
+        if held is not None:
+            self.begins(Hand(held.box, held.grasp, held.size, held.mass, phase, place, held.beyond))
+
+    def lets_go(self) -> None:
+        """The gripper is empty, and the step over."""
+        self.hand = None
+        self.keep()
 
     def ended(self, box: BoxId, fate: Fate, place: PlaceId | None = None, reason: str = "") -> None:
         """It is known what became of a box."""
@@ -250,7 +279,8 @@ class Workplace:
         approach = held.grasp.approach if held else None
         self.departures.ends(Departure(box, gtin, approach, place, fate, reason, self.now))
         if held:
-            self.held = None
+            self.held = self.hand = None
+        self.keep()
         self.gone(box).set()
 
     def dropped(self, box: BoxId) -> None:

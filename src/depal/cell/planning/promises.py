@@ -9,7 +9,7 @@ from depal.cell.planning.plans import CarryPlan, PickPlan
 from depal.cell.planning.surroundings import Surroundings
 from depal.domain import BoxId, CellLayout, Joints, PlaceId
 from depal.geometry import OrientedBox
-from depal.logistics.placing import Books
+from depal.logistics.placing import Books, Standing
 from depal.motion.collision import Scene
 
 
@@ -121,6 +121,25 @@ class Promises:
         """The box stands where it was planned."""
         self._carries.pop(plan.load.box, None)
         self._picks.pop(plan.load.box, None)
+
+    def stored(self) -> Iterator[tuple[Standing, PlaceId, OrientedBox]]:
+        """What stands in places or is promised to: in the place's frame and in the cell's."""
+        for place_map in self.books.maps:
+            for box in place_map.boxes:
+                solid = self._around.where(box.id)
+                if solid is not None:
+                    yield box, place_map.place.id, solid
+
+    def stands(self, place: PlaceId, box: Standing, solid: OrientedBox) -> None:
+        """A box stands in a place, as was written before a restart."""
+        self.books = self.books.put(place, box)
+        self._around.put(box.id, place, solid)
+
+    def gone(self, box: BoxId) -> None:
+        """Somebody has taken a box out of its place."""
+        if self.books.where(box) is not None:
+            self.books = self.books.take(box)
+            self._around.take(box)
 
     def exchanged(self, trolley: str) -> None:
         """An empty trolley stands in the bay."""

@@ -4,6 +4,7 @@ from collections import Counter
 from dataclasses import replace
 
 from depal.cell.guards import Guards
+from depal.cell.hand import Phase
 from depal.cell.identity import told_size, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
@@ -111,6 +112,7 @@ class Checking:
         size, beyond = told_size(product.size, held.size)
         grasp = resized(held.grasp, held.size, size)
         work.held = replace(held, size=size, grasp=grasp, beyond=beyond)
+        work.steps(Phase.HELD)
         work.feedback.learn(box, product)
         work.aside_reasons.pop(box, None)
         work.wishes.identified(box, gtin, work.now)

@@ -30,23 +30,27 @@ class Exchanging:
     async def call(self, context: Context) -> Report:
         """Unlocks the bay and calls for a person."""
         trolley = context.args["Trolley"]
+        self._ask(trolley, context.attempt)
+        return Report(((f"{trolley}.present", False),))
+
+    def _ask(self, trolley: str, attempt: int) -> asyncio.Task[str]:
         question = Question(
-            f"exchange/{trolley}/{context.attempt}",
+            f"exchange/{trolley}/{attempt}",
             f"{trolley} is full. Please pull it out and put an empty one into its bay.",
             ("done",),
             trolley,
         )
         asking = self._work.questions.ask(question)
-        self._asked[trolley] = asyncio.get_running_loop().create_task(asking)
-        return Report(((f"{trolley}.present", False),))
+        self._asked[trolley] = task = asyncio.get_running_loop().create_task(asking)
+        return task
 
     async def await_new(self, context: Context) -> Report:
         """Waits until an empty trolley is locked in the bay."""
         trolley = context.args["Trolley"]
-        asked = self._asked.get(trolley)
-        if asked is not None:
-            await asyncio.shield(asked)  # a time-out here does not unask the person
-            del self._asked[trolley]
+        # Who was asked before a restart is asked anew.
+        asked = self._asked.get(trolley) or self._ask(trolley, context.attempt)
+        await asyncio.shield(asked)  # a time-out here does not unask the person
+        del self._asked[trolley]
         if self._work.ports.bays.trolley(trolley) is None:
             return Report(outcome=Outcome.FAILED, reason=f"no trolley is locked in {trolley}")
         self._desk.promises.exchanged(trolley)

@@ -2,6 +2,7 @@
 
 from depal.cell.departures import Fate
 from depal.cell.guards import LOST, Guards
+from depal.cell.hand import Phase
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
 from depal.cell.primitives.falling import report_loss
@@ -83,8 +84,10 @@ class Leaving:
         ports, held = self._work.ports, self._work.held
         mass = held.mass if held is not None else 0.0
         guard = self._guards.holding(self._guards.touches_down(mass))
+        self._work.steps(Phase.LOWERING, plan.place)
         if await ports.arm.follow(plan.descent, guard) == LOST:
             return LOST
+        self._work.steps(Phase.VENTING, plan.place)
         await ports.gripper.release()
         return None
 

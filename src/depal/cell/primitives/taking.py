@@ -4,6 +4,7 @@ import asyncio
 
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
+from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
@@ -43,6 +44,8 @@ class Taking:
     async def reach(self, context: Context) -> Report:
         """Moves the gripper to the face of the box."""
         box = BoxId(context.args["Box"])
+        await self._work.gate.passed()
+        await context.checkpoint()
         unlike = await self._looked_at_anew(box)
         if unlike is not None:
             return Report(outcome=Outcome.FAILED, reason=unlike)
@@ -63,6 +66,8 @@ class Taking:
         box = BoxId(context.args["Box"])
         plan = self._desk.promises.pick_in_hand(box)
         ports = self._work.ports
+        size = plan.box.shape.size
+        self._work.begins(Hand(box, plan.grasp, size, plan.mass, Phase.GRASPING))
         if not await sucked(self._work, self._desk, plan):
             return await self._let_go(plan, "the vacuum did not come")
         lift = lifted_from(self._desk, plan)
@@ -72,7 +77,6 @@ class Taking:
         slipped = slipped or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped)
-        size = plan.box.shape.size
         beyond = EXACT
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
             beyond = beyond_seen(self._work.delivery, size, mass)
@@ -133,6 +137,7 @@ class Taking:
         """Vents, draws back out of the view, and lets the box be approached anew."""
         ports, box = self._work.ports, plan.box.id
         await ports.gripper.release()
+        self._work.lets_go()
         for retreat in self._desk.picking.way_back(plan):
             await ports.arm.follow(retreat)
         self._desk.promises.forget_pick(box)

@@ -1,0 +1,185 @@
+"""A controller that is started anew in the middle of a run: held, reconciled, and on again.
+
+RELIABILITY, "The core protocol": a step that was begun and of which nobody knows the end is never
+simply run again. What the ledger tells and what the sensors tell decide; what they leave open a
+person decides. Nothing moves before a person has said start.
+"""
+
+import asyncio
+
+from depal.cell.answers import ASIDE, STORE
+from depal.cell.clearing import get_clear
+from depal.cell.departures import Fate
+from depal.cell.guards import Guards
+from depal.cell.hand import Hand, Phase
+from depal.cell.ledger.reconciling import Found, Sensed, reconcile
+from depal.cell.planning.desk import Desk
+from depal.cell.stock import movement_id
+from depal.cell.workplace import FIRST, Held, Workplace
+from depal.domain import BoxId
+from depal.executive.engine import Call
+from depal.ports import TAKEN, Movement, Question
+
+HANGS, STANDS, ON_PALLET = (
+    "it hangs in the gripper",
+    "it stands in its place",
+    "it stands on the pallet",
+)
+
+MEANT = {
+    HANGS: Found.HOLDING,
+    STANDS: Found.SET_DOWN,
+    ON_PALLET: Found.LET_GO,
+    TAKEN: Found.NOTHING,
+}
+"""What a person's answer says about a box that nobody knows about."""
+
+SETTLING = 0.05
+"""The probes of a restart are asked for every so often [s]."""
+
+ARM_AT = "kr60.at"
+
+
+class Recovery:
+    """Brings a restored workplace and the world to the same story."""
+
+    def __init__(self, work: Workplace, desk: Desk, hand: Hand | None) -> None:
+        """Before the executive goes on.
+
+        Args:
+            work: restored from the ledger; its runtime is folded from the journal and held.
+            desk: plans the way out.
+            hand: the step that the ledger has last told of.
+        """
+        self._work, self._desk, self._hand = work, desk, hand
+        self.found = Found.NOTHING
+
+    def examine(self) -> Found:
+        """Reads the sensors; nothing moves, and asking again does no harm."""
+        ports = self._work.ports
+        vacuum = any(value > 0.0 for value in ports.gripper.vacuum().values())
+        self.found = reconcile(self._hand, Sensed(vacuum, ports.arm.load()))
+        if self.found is Found.HOLDING and self._hand is not None:
+            self._takes_over(self._hand)
+        return self.found
+
+    def _takes_over(self, hand: Hand) -> None:
+        held = Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
+        if self._work.departures.has_left(hand.box):
+            self._work.held = held
+            self._work.steps(Phase.HELD)
+        else:
+            self._work.lifted(held)  # the controller ended between the lift and its report
+
+    async def go_on(self) -> None:
+        """A person has said start: what is open is asked, the arm gets clear, the facts are set."""
+        await self._probed()
+        if self.found is Found.UNKNOWN and self._hand is not None:
+            await self._ask(self._hand)
+        await self._settle()
+        self._work.runtime.start("person")
+
+    async def _probed(self) -> None:
+        """Waits until the probes that the restart has begun are through."""
+        attempts = self._work.runtime.engine.state.attempts
+        while any(attempt.in_doubt for attempt in attempts.values()):
+            await asyncio.sleep(SETTLING)
+
+    async def _ask(self, hand: Hand) -> None:
+        choices = (HANGS, *((STANDS,) if hand.place is not None else ()), ON_PALLET, TAKEN)
+        question = Question(
+            f"restart/{hand.box}",
+            f"The cell was started anew while it moved box {hand.box}, and its sensors cannot "
+            "tell where that is. Where is it?",
+            choices,
+            str(hand.box),
+        )
+        answer = await self._work.questions.ask(question)
+        self.found = MEANT[answer]
+        if self.found is Found.HOLDING:
+            self._takes_over(hand)
+        elif answer == TAKEN:
+            self._work.ended(hand.box, Fate.BY_PERSON, reason="taken after a restart")
+
+    async def _settle(self) -> None:
+        """Motions first, then the facts, so that nobody acts on what is not so yet."""
+        work, hand = self._work, self._hand
+        guards = Guards(work.ports.arm, work.ports.gripper, work.ports.safety)
+        if self.found in {Found.SET_DOWN, Found.LET_GO}:
+            await work.ports.gripper.release()
+        if self.found is Found.HOLDING:
+            lost = await get_clear(work, self._desk, guards.holding())
+            if lost is not None:
+                self.found = Found.DROPPED
+                await work.ports.gripper.release()
+        else:
+            await get_clear(work, self._desk)
+        if hand is not None:
+            await self._tell(hand)
+        self._forget_the_rest(hand)
+        self._withdraw_what_waits()
+
+    async def _tell(self, hand: Hand) -> None:
+        work, box = self._work, hand.box
+        match self.found:
+            case Found.HOLDING:
+                self._facts(hand, taken=True)
+                self._with_a_task(hand)
+            case Found.SET_DOWN | Found.PLACED if hand.place is not None:
+                await self._placed(hand)
+            case Found.DROPPED:
+                work.dropped(box)
+                self._facts(hand, taken=False)
+            case _:
+                work.lets_go()
+                self._facts(hand, taken=False)
+
+    def _facts(self, hand: Hand, *, taken: bool) -> None:
+        self._work.tell([(f"{hand.box}.taken", taken), (ARM_AT, None)], "restart")
+
+    def _with_a_task(self, hand: Hand) -> None:
+        """A box in the hand is worked on by somebody; else it is set aside."""
+        trees = self._work.runtime.engine.state.trees.values()
+        roots = [tree.root.node for tree in trees if tree.withdrawn is None]
+        if not any(r.args[:1] == (hand.box,) and r.schema.name in {STORE, ASIDE} for r in roots):
+            self._work.aside_reasons.setdefault(hand.box, "nobody worked on it after a restart")
+            self._work.allocate(Call(ASIDE, (hand.box,), FIRST))
+
+    async def _placed(self, hand: Hand) -> None:
+        work, box, place = self._work, hand.box, hand.place
+        if place is None:
+            return
+        aside = place.split("/", maxsplit=1)[0] == work.layout.aside
+        work.held = Held(box, hand.grasp, hand.size, hand.mass, hand.beyond)
+        reason = work.aside_reasons.get(box, "set aside") if aside else ""
+        work.ended(box, Fate.SET_ASIDE if aside else Fate.STORED, place, reason)
+        if aside:
+            work.tell([(f"{box}.taken", False), (f"{box}.at", "aside"), (ARM_AT, None)], "restart")
+            return
+        product = work.product_of(box)
+        gtin = product.gtin if product else None
+        await work.ports.store.moved(Movement(movement_id(box, place), box, gtin, place, work.now))
+        facts = [(f"{box}.taken", False), (f"{box}.stored", True), (ARM_AT, None)]
+        work.tell(facts, "restart")
+
+    def _forget_the_rest(self, hand: Hand | None) -> None:
+        """The arm is nowhere, and no box but the one in the hand is in it."""
+        facts = self._work.runtime.engine.state.facts
+        held = None if hand is None or self.found is not Found.HOLDING else f"{hand.box}.taken"
+        stale = [
+            (key, False)
+            for key, value in facts.items()
+            if key.endswith(".taken") and value and key != held
+        ]
+        self._work.tell([*stale, (ARM_AT, None)], "restart")
+
+    def _withdraw_what_waits(self) -> None:
+        """What stands on the pallet is looked at and chosen anew: names may have changed."""
+        work = self._work
+        for number, tree in list(work.runtime.engine.state.trees.items()):
+            root = tree.root.node
+            box = BoxId(root.args[0]) if root.args else None
+            waits = root.schema.name == STORE and box is not None
+            if waits and box is not None and not work.departures.has_left(box):
+                work.runtime.withdraw(number, "the cell was started anew")
+                work.gone(box).set()
