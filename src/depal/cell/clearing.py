@@ -18,6 +18,9 @@ OUT = 0.55
 UP, BACK, CLEAR = 0.03, 0.35, 0.30
 """From the pallet a box is raised so far before it is drawn back, an arm above it so far [m]."""
 
+EDGE = 0.05
+"""Before its opening and below its floor a place begins so early [m]."""
+
 AROUND = 0.35
 """So near to the pallet's rectangle the arm may stand among boxes [m]."""
 
@@ -85,7 +88,7 @@ def _face(work: Workplace, flange: Pose) -> Pose:
 
 def _within(place: Place, x: float, y: float, z: float) -> bool:
     width, height = place.opening
-    return -0.05 < x < place.depth and abs(y) < width / 2 and -0.05 < z < height
+    return -EDGE < x < place.depth and abs(y) < width / 2 and -EDGE < z < height
 
 
 def _over_pallet(work: Workplace, point: Vector3) -> bool:

@@ -82,7 +82,7 @@ class Recovery:
     async def _probed(self) -> None:
         """Waits until the probes that the restart has begun are through."""
         attempts = self._work.runtime.engine.state.attempts
-        while any(attempt.in_doubt for attempt in attempts.values()):
+        while any(each.in_doubt for each in attempts.values()):  # noqa: ASYNC110 - they are short
             await asyncio.sleep(SETTLING)
 
     async def _ask(self, hand: Hand) -> None:

@@ -1,8 +1,8 @@
 """The requests of a run: when each came, what served it, and what left before it."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Self
+from typing import Self
 
 from depal.domain import BoxId, Gtin, Request
 
@@ -56,16 +56,16 @@ class Wishes:
 
     def change(self, key: str, request: Request) -> bool:
         """The same request with another priority or due time; False where it has ended."""
-        return self._replace(key, request=request)
+        return self._replace(key, lambda wish: replace(wish, request=request))
 
     def cancel(self, key: str) -> bool:
         """A request is not wanted any more; False where it has ended."""
-        return self._replace(key, cancelled=True)
+        return self._replace(key, lambda wish: replace(wish, cancelled=True))
 
-    def _replace(self, key: str, **changes: Any) -> bool:
+    def _replace(self, key: str, changed: Callable[[Wish], Wish]) -> bool:
         for number, wish in enumerate(self._wishes):
             if wish.key == key and wish.served is None and not wish.cancelled:
-                self._wishes[number] = replace(wish, **changes)
+                self._wishes[number] = changed(wish)
                 return True
         return False
 
