@@ -11,6 +11,7 @@ from depal.app.files import write_json
 from depal.app.progress import progress_bar
 from depal.app.reports.report import Report
 from depal.app.run.accounting import Onlooker, left_behind, meant
+from depal.app.run.assembly import Wiring, assemble
 from depal.app.run.case2 import NAME as CASE2
 from depal.app.run.case2 import case2_delivery, case2_names, case2_requests
 from depal.app.run.eyes import camera_sight
@@ -22,15 +23,11 @@ from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
-from depal.cell.feedback import Feedback
 from depal.cell.planning.desk import Desk
-from depal.cell.planning.planner import Planner
-from depal.cell.questions import Questions
-from depal.cell.reporting import Journalist
 from depal.cell.sight import CameraSight
 from depal.cell.stock import movements_in
 from depal.cell.tasks import read_shipped_tasks
-from depal.cell.timekeeping import WAITING, Timekeeper, timed
+from depal.cell.timekeeping import WAITING, Timekeeper
 from depal.cell.wishes import Wish
 from depal.cell.workplace import Ports, Settings, Workplace
 from depal.domain import Delivery, Gtin, Request, checked_share
@@ -171,18 +168,19 @@ async def _run(
     )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.told], places, seed=job.seed)
-    times = Timekeeper(clock)
     sight = seeing(job, cell, clock)
-    ports = timed(_ports(cell, store, sight, clock), times)
-    questions = Questions(ports.person, clock)
-    work = Workplace(job.layout, job.told, ports, job.settings, questions, job.impossible)
-    planner = Planner(work, times, cone=job.cone, seed=job.seed, stopwatch=time.perf_counter)
-    desk = Desk(work, planner)
-    if isinstance(sight, CameraSight):
-        sight.bind(work.pile, desk.viewing.covered)
-        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny)
-    notes = Journalist()
-    controller = Controller(work, desk, notes, tasks, keeper.journal)
+    wiring = Wiring(
+        job.layout,
+        job.told,
+        job.settings,
+        tasks,
+        keeper.journal,
+        seed=job.seed,
+        impossible=job.impossible,
+        cone=job.cone,
+    )
+    wired = assemble(wiring, _ports(cell, store, sight, clock))
+    work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.told.boxes))
@@ -197,7 +195,7 @@ async def _run(
     filming.cancel()
     film.take()
     _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
-    outcome = _outcome(job, work, desk, cell, keeper, times)
+    outcome = _outcome(job, work, desk, cell, keeper, wired.times)
     return replace(outcome, scores=scores.scores), film
 
 

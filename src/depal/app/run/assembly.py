@@ -1,0 +1,84 @@
+"""A controller over the ports of a cell, wired: what a run and a served cell have in common."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from depal.cell.controller import Controller
+from depal.cell.feedback import Feedback
+from depal.cell.planning.desk import Desk
+from depal.cell.planning.planner import Planner
+from depal.cell.questions import Questions
+from depal.cell.reporting import Journalist
+from depal.cell.sight import CameraSight
+from depal.cell.timekeeping import Timekeeper, timed
+from depal.cell.workplace import Ports, Settings, Workplace
+from depal.domain import CellLayout, Delivery, Gtin
+from depal.executive.engine import Engine
+from depal.executive.journal import Journal
+from depal.executive.schema import Repository
+
+
+@dataclass(frozen=True, slots=True)
+class Wiring:
+    """What a controller is wired from.
+
+    Attributes:
+        layout: the cell.
+        told: the note.
+        settings: how the run is to go.
+        tasks: what the cell can do.
+        journal: written before anything is done.
+        seed: of the planner's samples.
+        impossible: products that the arm cannot handle, and why.
+        cone: whether motions respect the suction's limits.
+        engine: folded from the journal after a restart; None at a beginning.
+    """
+
+    layout: CellLayout
+    told: Delivery
+    settings: Settings
+    tasks: Repository
+    journal: Journal
+    seed: int = 0
+    impossible: Mapping[Gtin, str] = field(default_factory=dict)
+    cone: bool = True
+    engine: Engine | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Assembly:
+    """A wired controller.
+
+    Attributes:
+        work: what the cell believes.
+        desk: plans its motions.
+        notes: tells what happens.
+        controller: of it all.
+        times: where the time goes.
+    """
+
+    work: Workplace
+    desk: Desk
+    notes: Journalist
+    controller: Controller
+    times: Timekeeper
+
+
+def assemble(wiring: Wiring, ports: Ports) -> Assembly:
+    """Wires a controller to the ports of a cell."""
+    times = Timekeeper(ports.clock)
+    sight = ports.sight
+    ports = timed(ports, times)
+    questions = Questions(ports.person, ports.clock)
+    work = Workplace(
+        wiring.layout, wiring.told, ports, wiring.settings, questions, wiring.impossible
+    )
+    planner = Planner(work, times, cone=wiring.cone, seed=wiring.seed, stopwatch=time.perf_counter)
+    desk = Desk(work, planner)
+    if isinstance(sight, CameraSight):
+        sight.bind(work.pile, desk.viewing.covered)
+        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny)
+    notes = Journalist()
+    controller = Controller(work, desk, notes, wiring.tasks, wiring.journal, wiring.engine)
+    return Assembly(work, desk, notes, controller, times)
