@@ -26,6 +26,7 @@ class Line:
         size: along its own axes [m].
         yaw: by which it is turned [rad].
         gtin: its product, None where it is not recognised.
+        blockers: the boxes that must go before it.
     """
 
     box: BoxId
@@ -38,6 +39,7 @@ class Line:
     size: Vector3
     yaw: float
     gtin: Gtin | None
+    blockers: tuple[BoxId, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -169,4 +171,5 @@ def _line(verdict: Verdict) -> Line:
         size=box.shape.size,
         yaw=math.atan2(s, c),
         gtin=box.gtin if isinstance(box, Recognition) else None,
+        blockers=tuple(sorted(blocker.box for blocker in verdict.blockers)),
     )

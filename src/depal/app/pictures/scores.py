@@ -1,6 +1,5 @@
 """Fig. 10 over the camera's picture: the scores of boxes before and after a request."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image, ImageDraw
 
+from depal.app.pictures.fronts import front_of
 from depal.geometry import OrientedBox
 from depal.ports import Frame
 from depal.simulation.imaging.prints.fonts import font
@@ -60,7 +60,9 @@ def score_picture(frame: Frame, boxes: Sequence[Scored]) -> Bytes:
     Returns:
         (h, w, 3) RGB, the part of the frame that shows the boxes.
     """
-    outlines = {box.name: outline for box in boxes if (outline := _front(frame, box)) is not None}
+    outlines = {
+        box.name: outline for box in boxes if (outline := front_of(frame, box.shape)) is not None
+    }
     picture = (frame.colour * (1.0 - SOFT) + np.array(PAPER) * SOFT).astype(np.uint8)
     for box in boxes:
         if box.name in outlines:
@@ -71,28 +73,6 @@ def score_picture(frame: Frame, boxes: Sequence[Scored]) -> Bytes:
         if box.name in outlines:
             _write(draw, box, outlines[box.name])
     return _cut(np.asarray(image), list(outlines.values()))
-
-
-def _front(frame: Frame, box: Scored) -> Floats | None:
-    """(4, 2) the face that looks most to the camera, in the picture; None where it is not in it."""
-    eye = np.array(frame.cell_from_camera.translation)
-    axes = np.array(box.shape.pose.rotation)
-    way = axes.T @ (eye - np.array(box.shape.centre))
-    axis = int(np.abs(way[:2] / np.array(box.shape.size[:2])).argmax())
-    side = math.copysign(0.5, way[axis])
-    others = [k for k in range(3) if k != axis]
-    local = np.zeros((FRONT, 3))
-    local[:, axis] = side
-    local[:, others] = [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)]
-    corners = local * np.array(box.shape.size) @ axes.T + np.array(box.shape.centre)
-    seen = frame.cell_from_camera.inverse
-    inside = corners @ np.array(seen.rotation).T + np.array(seen.translation)
-    if (inside[:, 2] <= 0).any():
-        return None
-    found = (inside / inside[:, 2:]) @ np.array(frame.colour_k).T
-    height, width = frame.colour.shape[:2]
-    within = (found[:, :2] >= 0).all() and (found[:, :2] < (width, height)).all()
-    return np.asarray(found[:, :2]) if within else None
 
 
 def _show(picture: Bytes, colour: Bytes, outline: Floats) -> None:

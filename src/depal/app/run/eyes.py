@@ -15,7 +15,7 @@ from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import Gallery, gallery_of
-from depal.ports import Frame
+from depal.ports import Camera, Frame
 from depal.simulation.cell import SimulatedCell
 from depal.simulation.imaging.photographs import book_of
 
@@ -97,21 +97,49 @@ class Observing:
 
 
 def camera_sight(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
-    """The cell's cameras, calibrated, with perception and memory.
+    """The cameras of a simulated cell, calibrated, with perception and memory.
 
     Raises:
         FrameError: a camera cannot be calibrated.
     """
-    layout, lines = job.layout, job.told.lines
-    calibrations = [
-        _calibrated(layout, mount, camera.frame(clock.now()))
-        for mount, camera in zip(layout.cameras, cell.cameras, strict=True)
-    ]
-    products = [line.product for line in lines]
-    book = book_of(products, job.seed, KNOWN_SHARE)
+    frames = [camera.frame(clock.now()) for camera in cell.cameras]
     memory = Memory(places=job.named)
+    return sight_over(
+        job.layout, job.told.lines, job.seed, cell.cameras, frames, clock, memory=memory
+    )
+
+
+def sight_over(
+    layout: CellLayout,
+    lines: tuple[DeliveryLine, ...],
+    seed: int,
+    cameras: Sequence[Camera],
+    frames: Sequence[Frame],
+    clock: Clock,
+    *,
+    memory: Memory | None = None,
+) -> CameraSight:
+    """Cameras, calibrated, with perception and memory.
+
+    Args:
+        layout: the cell.
+        lines: of the note.
+        seed: of the simulated store's product pictures.
+        cameras: in the layout's order.
+        frames: one of each, to calibrate by.
+        clock: of the cell.
+        memory: names that were given in advance.
+
+    Raises:
+        FrameError: a camera cannot be calibrated.
+    """
+    calibrations = [
+        _calibrated(layout, mount, frame)
+        for mount, frame in zip(layout.cameras, frames, strict=True)
+    ]
+    book = book_of([line.product for line in lines], seed, KNOWN_SHARE)
     eyes = Observing(layout, calibrations).eyes()
-    return CameraSight(cell.cameras, eyes, book, lines, clock, memory)
+    return CameraSight(cameras, eyes, book, lines, clock, memory)
 
 
 def _calibrated(layout: CellLayout, mount: CameraMount, frame: Frame) -> Calibration:

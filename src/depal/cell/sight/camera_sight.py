@@ -2,8 +2,9 @@
 
 import asyncio
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from depal.cell.pile import Pile
 from depal.cell.sight.naming import perceived
@@ -32,6 +33,15 @@ FIRST, LATER = 1.2, 0.5
 
 Rest = Callable[[Sequence[Frame], Sequence[OrientedBox]], tuple[OrientedBox, ...]]
 """Solids where something stands in the frames of a look that none of these boxes explains."""
+
+
+Compute = Callable[..., Awaitable[Look]]
+"""Calls what perceives with its arguments: on the event loop, or beside it."""
+
+
+async def on_the_loop(perceive: Perceive, *args: Any) -> Look:  # noqa: ANN401 - passed on
+    """While it is computed, nothing else goes on: the same seed gives the same events."""
+    return perceive(*args)
 
 
 Learn = Callable[[PictureBook, Product, Sequence[Face], Sequence[Frame]], PictureBook]
@@ -98,6 +108,7 @@ class CameraSight:
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
         self.last: Look | None = None
         self.spent: list[float] = []
+        self.compute: Compute = on_the_loop
 
     def bind(self, pile: Pile, covered: Callable[[], bool]) -> None:
         """Who knows the rest.
@@ -123,7 +134,8 @@ class CameraSight:
         self._forget_taken()
         before = None if self.last is None or self._doubting else self._believed()
         self._doubting = False
-        look = self._eyes.perceive(frames, self._expected(), self.book, before)
+        expected = self._expected()
+        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before)
         self._seen.append((taken, tuple(frames)))
         self.last = look
         self.memory = self.memory.update(look, taken)

@@ -1,0 +1,67 @@
+"""The mode of the cell in PackML's terms, from the run and its alarms."""
+
+from collections.abc import Sequence
+
+from depal.app.serve.session import Session, Stage
+from depal.server.cellstate import Alarm, Mode
+
+EXCHANGE = "/exchange/"
+"""What the names of questions after another trolley have in them."""
+
+
+RESTART = "restart"
+"""The name of the alarm that says what a restart has found."""
+
+STANDING = {
+    Stage.DONE: (Mode.COMPLETE, "The pallet is empty."),
+    Stage.STOPPED: (Mode.STOPPED, "Stopped after a box. Press Start to go on."),
+    Stage.HELD: (Mode.HELD, "Held by a person. Press Resume to go on."),
+    Stage.RECOVERED: (Mode.HELD, "The controller was started anew. Press Start to go on."),
+}
+
+
+def mode_of(session: Session | None, alarms: Sequence[Alarm]) -> tuple[Mode, str]:
+    """The mode and why, for people."""
+    if session is None:
+        trouble = next((alarm.text for alarm in alarms if alarm.urgent), "")
+        return (Mode.STOPPED, trouble) if trouble else (Mode.IDLE, "No delivery is started.")
+    if session.wired.work.ports.safety.state().stopped:
+        return Mode.ABORTED, "A safety stop is active."
+    if session.stage is Stage.WORKING:
+        return _working(session)
+    mode, reason = STANDING[session.stage]
+    return mode, next((alarm.text for alarm in alarms if alarm.id == RESTART), reason)
+
+
+def _working(session: Session) -> tuple[Mode, str]:
+    """Working, unless everything waits for an answer."""
+    waited_for = [question for question in session.person.open if question.blocks]
+    if not waited_for or _moves(session):
+        return Mode.EXECUTE, "Boxes are being moved."
+    outside = [question for question in waited_for if EXCHANGE in question.id]
+    if len(outside) == len(waited_for):
+        return Mode.SUSPENDED, outside[0].text
+    held = next(question for question in waited_for if EXCHANGE not in question.id)
+    return Mode.HELD, held.text
+
+
+def _moves(session: Session) -> bool:
+    """Whether something goes on that has not asked anybody."""
+    attempts = session.wired.controller.runtime.engine.state.attempts.values()
+    return any(attempt.node.action.name not in ASKING for attempt in attempts)
+
+
+ASKING = frozenset(
+    {
+        "select_box",
+        "ask_target",
+        "await_box",
+        "await_trolley",
+        "call_for_exchange",
+        "ask_decision",
+        "await_answer",
+        "kr60_show",
+        "read_barcode",
+    }
+)
+"""Actions in which a person may be waited for."""

@@ -1,0 +1,388 @@
+"""One run of a served cell: wired, begun or taken up again, told about, and closed."""
+
+import asyncio
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass, replace
+from enum import Enum
+from pathlib import Path
+
+from depal.app.run.assembly import Assembly, Wiring, assemble
+from depal.app.run.inputs import refuse_what_cannot_work
+from depal.app.run.record import CHOICES, said
+from depal.app.serve.outside import Records, World
+from depal.app.serve.person import ScreenPerson
+from depal.app.serve.seeing import Seen
+from depal.cell.departures import Departure, Fate
+from depal.cell.ledger import Found, Ledger, page_of, restore
+from depal.cell.planning.timing import Timing
+from depal.cell.recovery import Recovery
+from depal.cell.reporting import ChoiceNote
+from depal.cell.tasks import read_shipped_tasks
+from depal.cell.timekeeping import WAITING
+from depal.cell.wishes import Wish
+from depal.cell.workplace import Policy, Ports, Settings
+from depal.domain import BoxId, CellLayout, Gtin, Request
+from depal.executive import events as ev
+from depal.executive.clock import Clock
+from depal.executive.journal import SqliteJournal
+from depal.executive.record import open_record
+from depal.executive.restart import resumed
+from depal.ports import TAKEN, Question, StoreSystem
+from depal.server import cell as server
+from depal.server.cellstate import Alarm, QuestionState
+
+LEDGER = "ledger.db"
+
+TAKEN_FACT = ".taken"
+
+
+class Stage(Enum):
+    """How far a run is."""
+
+    RECOVERED = "recovered"
+    WORKING = "working"
+    HELD = "held"
+    STOPPED = "stopped"
+    DONE = "done"
+
+
+@dataclass(frozen=True, slots=True)
+class Surroundings:
+    """What a run works with.
+
+    Attributes:
+        layout: the cell.
+        world: its devices.
+        store: the store's system.
+        records: what is to be known after the run.
+        clock: of the cell.
+        seen: what it sees with.
+    """
+
+    layout: CellLayout
+    world: World
+    store: StoreSystem
+    records: Records
+    clock: Clock
+    seen: Seen
+
+
+class Session:
+    """A run, on the cell's thread."""
+
+    def __init__(
+        self,
+        order: server.Order,
+        around: Surroundings,
+        settings: server.Settings,
+        folder: Path,
+        changed: Callable[[], None],
+    ) -> None:
+        """Wires the controller; a folder that holds a run of that number is taken up again.
+
+        Args:
+            order: what is to be done.
+            around: what it is done with.
+            settings: of the cell.
+            folder: of this run's record.
+            changed: called after everything that changes the state.
+
+        Raises:
+            InputError: this cell cannot take this delivery.
+            JournalError: the record cannot be used.
+        """
+        self.order, self._around, self._changed = order, around, changed
+        self.folder = folder
+        self.note: ChoiceNote | None = None
+        self.stage = Stage.WORKING
+        self.began = around.clock.now()
+        self.person = ScreenPerson(
+            order.run, around.clock, around.world.deeds, self._asked, around.records.answered
+        )
+        findings = refuse_what_cannot_work(around.layout, order.delivery)
+        impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
+        tasks = read_shipped_tasks()
+        self.journal: SqliteJournal = open_record(folder, tasks)
+        self._ledger = Ledger(folder / LEDGER)
+        old = self.journal.last > 0
+        engine = resumed(tasks, self.journal) if old else None
+        wiring = Wiring(
+            around.layout,
+            replace(order.delivery, stack=None),
+            cell_settings(settings),
+            tasks,
+            self.journal,
+            seed=order.run,
+            impossible=impossible,
+            engine=engine,
+        )
+        self.wired: Assembly = assemble(wiring, self._ports())
+        self._recovery: Recovery | None = None
+        self._asides: set[asyncio.Task[None]] = set()
+        self._told: set[BoxId] = set()
+        self._settled: set[str] = set()
+        self._bind()
+        if old:
+            self._take_up()
+        else:
+            for key, request in order.requests:
+                self.wired.work.wishes.add(request, key)
+
+    def _ports(self) -> Ports:
+        around, world = self._around, self._around.world
+        return Ports(
+            arm=world.arm,
+            gripper=world.gripper,
+            reader=world.reader,
+            bays=world.bays,
+            safety=world.safety,
+            person=self.person,
+            store=around.store,
+            sight=around.seen.sight,
+            clock=around.clock,
+        )
+
+    def _bind(self) -> None:
+        work, desk = self.wired.work, self.wired.desk
+        work.keep = lambda: self._ledger.write(
+            page_of(work, desk.promises, self._around.seen.named())
+        )
+        self.wired.notes.listen(heard=self._heard, chosen=self._chosen)
+
+    # Begin, go on, end
+
+    def _take_up(self) -> None:
+        """After a restart: what was written is restored, the sensors are read, nothing moves."""
+        page = self._ledger.read()
+        work, desk = self.wired.work, self.wired.desk
+        restore(page, work, desk.promises)
+        self._around.seen.restart(page.named)
+        self._told = {departure.box for departure in page.departures}
+        known = {wish.key for wish in work.wishes}
+        for key, request in self.order.requests:
+            if key not in known:
+                work.wishes.add(request, key)
+        self.wired.controller.runtime.restart()
+        self._recovery = Recovery(work, desk, page.hand)
+        self._recovery.examine()
+        self.stage = Stage.RECOVERED
+
+    @property
+    def found(self) -> Found | None:
+        """What a restart has found; None where there was none."""
+        return None if self._recovery is None else self._recovery.found
+
+    async def run(self) -> None:
+        """To the end; after a restart it waits for `resume`."""
+        if self.stage is Stage.WORKING:
+            self.wired.controller.begin()
+        await self.wired.controller.finish()
+        self.stage = Stage.DONE
+        self._settle_requests(over=True)
+        self._around.records.run_ended(
+            self.order.run, "done", self._around.clock.now(), self.result()
+        )
+
+    async def resume(self, source: str) -> None:
+        """A person lets it go on."""
+        recovery, stage = self._recovery, self.stage
+        self.stage = Stage.WORKING
+        self.wired.work.gate.open()
+        if stage is Stage.RECOVERED and recovery is not None:
+            await recovery.go_on()
+            self._recovery = None
+            self.wired.controller.begin()
+        elif stage in {Stage.HELD, Stage.STOPPED}:
+            self.wired.controller.runtime.start(source)
+        self._changed()
+
+    def hold(self, source: str) -> None:
+        """Nothing starts any more; what the arm does it finishes."""
+        self.wired.controller.runtime.hold(source)
+        self.stage = Stage.HELD
+        self._changed()
+
+    def stop_after_box(self) -> None:
+        """The box in the gripper is the last one."""
+        self.wired.work.gate.close()
+        self._stop_if_empty()
+        self._changed()
+
+    def _stop_if_empty(self) -> None:
+        work = self.wired.work
+        if work.gate.closed and self.stage is Stage.WORKING and work.hand is None:
+            self.wired.controller.runtime.hold("stopped after a box")
+            self.stage = Stage.STOPPED
+
+    async def close(self) -> None:
+        """Breaks off, as the end of the controller does; the record can be taken up again."""
+        for task in self._asides:
+            task.cancel()
+        await self.wired.controller.runtime.close()
+        self.journal.close()
+        self._ledger.close()
+
+    # Requests and settings
+
+    def add_request(self, key: str, request: Request) -> None:
+        """Honoured at the next selection."""
+        self.wired.work.wishes.add(request, key)
+        self.wired.work.keep()
+        self._changed()
+
+    def change_request(self, key: str, request: Request) -> bool:
+        """False where it has been served."""
+        changed = self.wired.work.wishes.change(key, request)
+        self.wired.work.keep()
+        self._changed()
+        return changed
+
+    def cancel_request(self, key: str) -> bool:
+        """False where it has been served."""
+        cancelled = self.wired.work.wishes.cancel(key)
+        self.wired.work.keep()
+        self._changed()
+        return cancelled
+
+    def set(self, settings: server.Settings) -> None:
+        """From the next selection and the next motion on."""
+        work = self.wired.work
+        work.settings = cell_settings(settings)
+        timing = self.wired.desk.planner.timing
+        self.wired.desk.planner.timing = Timing(timing.layout, settings.speed, timing.cone)
+
+    # What happens
+
+    def _asked(self, question: QuestionState) -> None:
+        self._around.records.asked(self.order.run, question)
+        self._changed()
+
+    def _chosen(self, note: ChoiceNote) -> None:
+        self.note = note
+        line = json.dumps(asdict(note), separators=(",", ":"), default=said)
+        with (self.folder / CHOICES).open("a", encoding="utf-8") as file:
+            file.write(f"{line}\n")
+        self._changed()
+
+    def _heard(self, _: int, events: Sequence[ev.Event]) -> None:
+        for event in events:
+            facts = event.facts if isinstance(event, ev.Ended) else ()
+            for key, value in facts:
+                if key.endswith(TAKEN_FACT) and value:
+                    box = BoxId(key.removesuffix(TAKEN_FACT))
+                    self._around.world.witness_lifted(box)
+        self._settle_requests()
+        self._ask_for_what_is_aside()
+        self._stop_if_empty()
+        self._changed()
+
+    def _settle_requests(self, *, over: bool = False) -> None:
+        """A request has ended once the box that serves it has found its end."""
+        work, records = self.wired.work, self._around.records
+        for wish in work.wishes:
+            if not wish.key or wish.key in self._settled or wish.cancelled:
+                continue
+            if wish.served is not None and wish.box is not None:
+                if over or work.departures.has_ended(wish.box):
+                    self._settled.add(wish.key)
+                    records.request_ended(
+                        wish.key, served=True, at=wish.served, reason=f"by {wish.box}"
+                    )
+            elif over and wish.request.box is not None:
+                self._settled.add(wish.key)
+                reason = "its pallet is empty, and the box was not on it"
+                records.request_ended(wish.key, served=False, at=work.now, reason=reason)
+
+    def _ask_for_what_is_aside(self) -> None:
+        """What was set aside moves on when a person has taken it."""
+        for departure in self.wired.work.departures.sequence:
+            if departure.fate is Fate.SET_ASIDE and departure.box not in self._told:
+                self._told.add(departure.box)
+                task = asyncio.get_running_loop().create_task(self._cleared(departure))
+                self._asides.add(task)
+                task.add_done_callback(self._asides.discard)
+
+    async def _cleared(self, departure: Departure) -> None:
+        place = departure.place
+        solid = None if place is None else self.wired.desk.promises.standing(departure.box, place)
+        question = Question(
+            f"aside/{departure.box}",
+            f"Box {departure.box} was set aside: {departure.reason}. Please take it away.",
+            (TAKEN,),
+            str(departure.box),
+            None if solid is None else solid.centre,
+            departure.gtin,
+        )
+        await self.person.ask(question, blocks=False)
+        self.wired.desk.promises.gone(departure.box)
+        self.wired.work.keep()
+        self._changed()
+
+    # What is told
+
+    def alarms(self) -> tuple[Alarm, ...]:
+        """What needs an action, the most urgent first."""
+        found = [
+            Alarm(q.id, q.text, "Answer the question.", q.asked, q.blocks) for q in self.person.open
+        ]
+        if self.stage is Stage.RECOVERED and self._recovery is not None:
+            text = f"The controller was started anew; the sensors say: {self._recovery.found.value}"
+            found.insert(
+                0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
+            )
+        return tuple(sorted(found, key=lambda alarm: not alarm.urgent))
+
+    def result(self) -> dict[str, object]:
+        """What came of the run, for whoever looks at it later."""
+        work = self.wired.work
+        fates = [departure.fate for departure in work.departures.sequence]
+        waiting = self.wired.times.shares(work.now)[WAITING]
+        return {
+            "delivery": work.delivery.id,
+            "boxes": sum(line.count for line in work.delivery.lines),
+            "stored": fates.count(Fate.STORED),
+            "lost": fates.count(Fate.LOST),
+            "exceptions": [
+                {"box": d.box, "reason": d.reason, "outcome": d.fate.value, "gtin": d.gtin}
+                for d in work.departures.sequence
+                if d.fate in {Fate.SET_ASIDE, Fate.BY_PERSON}
+            ],
+            "sequence": [
+                {
+                    "box": d.box,
+                    "gtin": d.gtin,
+                    "place": d.place,
+                    "outcome": d.fate.value,
+                    "at": d.at,
+                }
+                for d in work.departures.sequence
+            ],
+            "requests": [_told_of(wish) for wish in work.wishes],
+            "questions": [
+                {"text": asked.question.text, "answer": asked.answer}
+                for asked in work.questions.all
+            ],
+            "seconds": work.now - self.began,
+            "waiting_seconds": waiting,
+        }
+
+
+def _told_of(wish: Wish) -> dict[str, object]:
+    request = wish.request
+    return {
+        "key": wish.key,
+        "gtin": request.gtin,
+        "box": request.box,
+        "priority": request.priority,
+        "arrived": request.arrived,
+        "served": wish.served,
+        "by": wish.box,
+        "boxes_before": wish.boxes_before,
+        "cancelled": wish.cancelled,
+    }
+
+
+def cell_settings(settings: server.Settings) -> Settings:
+    """The controller's settings for those that people set."""
+    return Settings(w=settings.w, policy=Policy(settings.policy), speed=settings.speed)
