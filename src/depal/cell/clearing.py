@@ -8,6 +8,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, Place
 from depal.geometry import Pose, Vector3
+from depal.motion.grasping import Holding
 from depal.motion.moves import OPEN, Kind, Part
 from depal.motion.planning.straight import straight_as_far
 from depal.ports import Guard, Trajectory
@@ -54,7 +55,11 @@ def _along(work: Workplace, desk: Desk, shift: Vector3) -> Trajectory | None:
         path = path if free is None else path[: free + 1]
     if len(path) < 2:  # noqa: PLR2004 - a path has two ends
         return None
-    return planner.timing.along([Part(Kind.STRAIGHT, path, touching=True)])
+    parts = [Part(Kind.STRAIGHT, path, touching=True)]
+    if held is None:
+        return planner.timing.along(parts)
+    holding = Holding.of(held.grasp, held.mass, work.layout.tool, size=held.size)
+    return planner.timing.along(parts, holding) or planner.timing.slowly(parts[0])
 
 
 def _is_level(shift: Vector3) -> bool:

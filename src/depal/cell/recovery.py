@@ -6,6 +6,7 @@ person decides. Nothing moves before a person has said start.
 """
 
 import asyncio
+from contextlib import suppress
 
 from depal.cell.answers import ASIDE, STORE
 from depal.cell.clearing import get_clear
@@ -17,6 +18,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.stock import movement_id
 from depal.cell.workplace import FIRST, Held, Workplace
 from depal.domain import BoxId
+from depal.errors import DeviceError
 from depal.executive.engine import Call
 from depal.ports import TAKEN, Movement, Question
 
@@ -114,6 +116,8 @@ class Recovery:
                 await work.ports.gripper.release()
         else:
             await get_clear(work, self._desk)
+        with suppress(DeviceError):  # what was believed before stands until a picture comes
+            work.pile.see(await work.ports.sight.look())
         if hand is not None:
             await self._tell(hand)
         await self._tell_what_has_ended()

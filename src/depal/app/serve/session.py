@@ -157,7 +157,7 @@ class Session:
         page = self._ledger.read()
         work, desk = self.wired.work, self.wired.desk
         restore(page, work, desk.promises)
-        self._around.seen.restart(page.named)
+        self._around.seen.recall(page)
         self._told = {departure.box for departure in page.departures}
         known = {wish.key for wish in work.wishes}
         for key, request in self.order.requests:

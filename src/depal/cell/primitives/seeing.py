@@ -44,6 +44,7 @@ class Seeing:
         work = self._work
         view = await work.ports.sight.look()
         work.pile.see(view)
+        work.keep()
         for box in view.moved:
             work.left_behind.pop(box, None)  # what was not possible there may be here
         learned = self._learned(context)
