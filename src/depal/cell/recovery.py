@@ -55,6 +55,7 @@ class Recovery:
         """
         self._work, self._desk, self._hand = work, desk, hand
         self.found = Found.NOTHING
+        work.plans.close()
 
     def examine(self) -> Found:
         """Reads the sensors; nothing moves, and asking again does no harm."""
@@ -79,6 +80,7 @@ class Recovery:
         if self.found is Found.UNKNOWN and self._hand is not None:
             await self._ask(self._hand)
         await self._settle()
+        self._work.plans.open()
         self._work.runtime.start("person")
 
     async def _probed(self) -> None:

@@ -163,8 +163,8 @@ class Session:
         for key, request in self.order.requests:
             if key not in known:
                 work.wishes.add(request, key)
-        self.wired.controller.runtime.restart()
         self._recovery = Recovery(work, desk, page.hand)
+        self.wired.controller.runtime.restart()
         self._recovery.examine()
         self.stage = Stage.RECOVERED
 
