@@ -4,7 +4,6 @@ import asyncio
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from depal.app.serve.outside import Built
 from depal.app.serve.seeing import seen_with
 from depal.app.serve.session import Session, Stage, Surroundings
 from depal.cell.files import shipped_cell
@@ -12,6 +11,7 @@ from depal.domain import BoxId, CellLayout, Delivery, Request
 from depal.executive.clock import LoopClock
 from depal.logistics.store import LocalStore, by_storage
 from depal.ports import Question
+from depal.ports.wire.messages import Built
 from depal.server.cell import Order, Settings
 from depal.server.cellstate import QuestionState
 from depal.simulation.cell import SimulatedCell, build

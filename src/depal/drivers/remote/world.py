@@ -1,6 +1,7 @@
 """A world in another process: its devices, what stands in it, and its end."""
 
 import asyncio
+from collections.abc import Sequence
 
 from depal.domain import BoxId, CellLayout, Delivery
 from depal.drivers.remote.devices import (
@@ -16,6 +17,7 @@ from depal.drivers.remote.devices import (
 )
 from depal.drivers.remote.line import Line
 from depal.executive.clock import Pace
+from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Safety, Sight
 from depal.ports.wire import messages as m
 
 
@@ -46,11 +48,15 @@ class RemoteWorld:
         self._tasks: set[asyncio.Task[None]] = set()
         self.pace = Pace(welcome.pace, welcome.start, welcome.origin)
         self.built = welcome.built
-        self.arm, self.gripper = RemoteArm(line), RemoteGripper(line)
-        self.bays, self.safety = RemoteBays(line), RemoteSafety(line)
-        self.reader, self.truth_sight = RemoteReader(line), RemoteSight(line)
-        self.deeds, self.referee = RemoteDeeds(line), RemoteReferee(line)
-        self.cameras = tuple(RemoteCamera(line, number) for number in range(cameras))
+        self.arm: Arm = RemoteArm(line)
+        self.gripper: Gripper = RemoteGripper(line)
+        self.bays: Bays = RemoteBays(line)
+        self.safety: Safety = RemoteSafety(line)
+        self.reader: BarcodeReader = RemoteReader(line)
+        self.truth_sight: Sight = RemoteSight(line)
+        self.deeds = RemoteDeeds(line)
+        self.referee = RemoteReferee(line)
+        self.cameras: Sequence[Camera] = [RemoteCamera(line, k) for k in range(cameras)]
         line.beat(self.pace.rate)
 
     async def build(
@@ -64,7 +70,7 @@ class RemoteWorld:
         call = m.Build(layout, delivery, seed, severity, number)
         await self._line.call(call, type(None))
         self.built = m.Built(delivery.id, number)
-        self.cameras = tuple(RemoteCamera(self._line, k) for k in range(len(layout.cameras)))
+        self.cameras = [RemoteCamera(self._line, k) for k in range(len(layout.cameras))]
 
     def witness_lifted(self, box: BoxId) -> None:
         """Tells the referee which box the cell means by a name."""
