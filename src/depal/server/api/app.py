@@ -40,8 +40,8 @@ def build_app(site: Site, exposure: Exposure | None = None) -> FastAPI:
     )
     router = APIRouter(prefix=ROOT)
     for routes in (working, wanting, store, managing):
-        router.include_router(routes(site, reached))
+        routes(router, site, reached)
     app.include_router(router)
     install(app)
-    app.add_middleware(Gate, site=site, exposure=reached, routes=app.router.routes)
+    app.add_middleware(Gate, site=site, exposure=reached, routes=router.routes)
     return app

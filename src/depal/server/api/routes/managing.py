@@ -31,15 +31,13 @@ LIMIT = Annotated[int, Query(ge=1, le=500)]
 AFTER = Annotated[int, Query(ge=0, le=2**62)]
 
 
-def managing(site: Site, exposure: Exposure) -> APIRouter:
-    """The routes over a site."""
-    router = APIRouter(tags=["people"])
+def managing(router: APIRouter, site: Site, exposure: Exposure) -> None:
+    """Adds the routes over a site."""
     _signing(router, site, exposure)
     _people(router, site)
     _tokens(router, site)
     _audit(router, site)
     _runs(router, site)
-    return router
 
 
 def cookied(signed: cases.SignedIn, exposure: Exposure) -> Response:

@@ -42,16 +42,14 @@ PICTURE = {
 FACE = Annotated[str, Path(pattern="^(front|back|left|right|top|bottom)$")]
 
 
-def store(site: Site, exposure: Exposure) -> APIRouter:
-    """The routes over a site."""
+def store(router: APIRouter, site: Site, exposure: Exposure) -> None:
+    """Adds the routes over a site."""
     del exposure
-    router = APIRouter(tags=["store"])
     _deliveries(router, site)
     _queue(router, site)
     _products(router, site)
     _pictures(router, site)
     _stock(router, site)
-    return router
 
 
 async def _text(request: Request) -> tuple[str, str]:

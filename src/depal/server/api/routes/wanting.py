@@ -19,14 +19,12 @@ KEY = Annotated[str, Path(min_length=1, max_length=100)]
 LIMIT = Annotated[int, Query(ge=1, le=500)]
 
 
-def wanting(site: Site, exposure: Exposure) -> APIRouter:
-    """The routes over a site."""
+def wanting(router: APIRouter, site: Site, exposure: Exposure) -> None:
+    """Adds the routes over a site."""
     del exposure
-    router = APIRouter(tags=["requests"])
     _requests(router, site)
     _changes(router, site)
     _questions(router, site)
-    return router
 
 
 def _due(site: Site, due: datetime | None, due_in: float | None) -> float | None:

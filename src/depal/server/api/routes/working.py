@@ -33,15 +33,13 @@ LONGEST = 3600.0
 NAME = Annotated[str, Path(min_length=1, max_length=100)]
 
 
-def working(site: Site, exposure: Exposure) -> APIRouter:
-    """The routes over a site."""
+def working(router: APIRouter, site: Site, exposure: Exposure) -> None:
+    """Adds the routes over a site."""
     del exposure
-    router = APIRouter(tags=["cell"])
     _reading(router, site)
     _commands(router, site)
     _settings(router, site)
     _journal(router, site)
-    return router
 
 
 def _reading(router: APIRouter, site: Site) -> None:
