@@ -2,6 +2,7 @@
 
 import asyncio
 import logging
+import signal
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import dataclass
@@ -178,6 +179,10 @@ def serve(serving: Serving, say: Callable[[str], None]) -> None:
         DepalError: the world or the cell does not start.
     """
     service = Service(serving)
+    # The web server ends on these signals and then raises them again, for whoever waits: for us
+    # they are over by then, and cell and world end in order.
+    for number in (signal.SIGTERM, signal.SIGINT):
+        signal.signal(number, lambda *_: None)
     service.open()
     try:
         asyncio.run(_serve(service, serving, say))
