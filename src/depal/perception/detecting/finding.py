@@ -8,11 +8,12 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.detecting.expected import Expected
+from depal.perception.detecting.kernels import agreeing
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
 from depal.perception.scoring import FaceScore, described, doubts, shipped_score
-from depal.perception.seams import Seams, directions_of, seams_of
+from depal.perception.seams import Seams, directions_of, seams_along
 
 Floats = npt.NDArray[np.float64]
 
@@ -94,8 +95,7 @@ class Finder:
             prints: where prints were seen; None where none was looked for.
             fixed: faces that are known already; none that is found overlaps them.
         """
-        turns = directions_of(raster, DIRECTIONS[raster.facing])
-        seams = [seams_of(raster, turn) for turn in turns]
+        seams = seams_along(raster, directions_of(raster, DIRECTIONS[raster.facing]))
         sizes = expected.faces(raster.facing)
         candidates, agreed = candidates_of(seams, sizes, prints)
         if not len(candidates):
@@ -156,9 +156,6 @@ def candidates_of(
 
 def _agreement(candidates: Candidates, printed: Candidates, scores: Floats) -> Floats:
     """(n, prints): the print's own score where it lies on the candidate, less the farther off."""
-    u, v, w, h, turn, _ = candidates.values.T[:, :, None]
-    pu, pv, pw, ph, pt, _ = printed.values.T[:, None, :]
-    along = np.abs(u - pu) + np.abs(w - pw) / 2
-    across = np.abs(v - pv) + np.abs(h - ph) / 2
-    away = np.maximum(along, across) + np.abs(turn - pt) * (w + h) / 4
-    return np.asarray(np.where(away < NEAR, scores * (1.0 - 0.5 * away / NEAR), -1.0))
+    out = np.empty((len(candidates), len(printed)))
+    agreeing(candidates.values, printed.values, scores, NEAR, out)
+    return out
