@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -73,12 +74,18 @@ class Finder:
 
     Attributes:
         score: how likely a rectangle is a face.
+        tops: the same for faces that look up.
         eager: added to every candidate's logarithm of odds before they are weighed against each
             other: so that what is not sure is found too, where nothing else explains the place.
     """
 
     score: FaceScore = field(default_factory=shipped_score)
+    tops: FaceScore = field(default_factory=partial(shipped_score, Facing.TOP))
     eager: float = 2.5
+
+    def score_of(self, facing: Facing) -> FaceScore:
+        """The score of faces that look this way."""
+        return self.tops if facing is Facing.TOP else self.score
 
     def faces(
         self,
@@ -103,7 +110,7 @@ class Finder:
         shares = agreed.max(axis=1) if agreed.shape[1] else np.full(len(candidates), -1.0)
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
-        odds = self.score.log_odds(features)
+        odds = self.score_of(raster.facing).log_odds(features)
         odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]

@@ -20,29 +20,31 @@ def inverse(upper: Floats, out: Floats) -> None:
     """
     size = upper.shape[0]
     for k in range(size):
-        root = math.sqrt(upper[k, k])
-        for j in range(k, size):
-            upper[k, j] /= root
+        scaled(upper, k, k, 1.0 / math.sqrt(upper[k, k]))
         for i in range(k + 1, size):
-            factor = upper[k, i]
-            if factor != 0.0:
-                for j in range(i, size):
-                    upper[i, j] -= factor * upper[k, j]
+            less(upper, i, upper, k, upper[k, i])
     for i in range(size):
         for j in range(size):
             out[i, j] = 1.0 if i == j else 0.0
         for k in range(i):
-            factor = upper[k, i]
-            if factor != 0.0:
-                for j in range(k + 1):
-                    out[i, j] -= factor * out[k, j]
-        for j in range(i + 1):
-            out[i, j] /= upper[i, i]
+            less(out, i, out, k, upper[k, i])
+        scaled(out, i, 0, 1.0 / upper[i, i])
     for i in range(size - 1, -1, -1):
         for k in range(i + 1, size):
-            factor = upper[i, k]
-            if factor != 0.0:
-                for j in range(size):
-                    out[i, j] -= factor * out[k, j]
-        for j in range(size):
-            out[i, j] /= upper[i, i]
+            less(out, i, out, k, upper[i, k])
+        scaled(out, i, 0, 1.0 / upper[i, i])
+
+
+@loop_kernel
+def scaled(rows: Floats, row: int, first: int, factor: float) -> None:
+    """Multiplies what a row has from a column on."""
+    for j in range(first, rows.shape[1]):
+        rows[row, j] *= factor
+
+
+@loop_kernel
+def less(rows: Floats, row: int, others: Floats, other: int, factor: float) -> None:
+    """Takes another row, times a factor, off a row."""
+    if factor != 0.0:
+        for j in range(rows.shape[1]):
+            rows[row, j] -= factor * others[other, j]
