@@ -60,8 +60,9 @@ class Cell:
     def __init__(self, data: Path, pace: float, perception: str) -> None:
         """Starts it."""
         self.data = data
+        command = str(Path(sys.executable).with_name("depal"))
         self._command = [
-            str(Path(sys.executable).with_name("depal")), "serve", "--data", str(data), "--port", "0",
+            command, "serve", "--data", str(data), "--port", "0",
             "--perception", perception, "--pace", str(pace),
         ]  # fmt: skip
         self.link = self._up()
