@@ -1,0 +1,102 @@
+"""One browser window: the rail, the three views, and the news that it is shown."""
+
+import asyncio
+from collections.abc import Callable
+
+from nicegui import Client, background_tasks, ui
+
+from depal.server.cellstate import CellState
+from depal.server.screen.desk import Desk
+from depal.server.screen.hub import Hub
+from depal.server.screen.now import NowView
+from depal.server.screen.said import said_in
+from depal.server.screen.toast import Guard
+from depal.server.screen.words import CATALOGUES, NAMES, words_of
+
+VIEWS = {"now": "dashboard", "past": "history", "setup": "tune"}
+"""The views with their pictures."""
+
+
+class Window:
+    """The page, once for each window."""
+
+    def __init__(self, desk: Desk, hub: Hub, language: str) -> None:
+        """Lays out the page.
+
+        Args:
+            desk: of whoever looks.
+            hub: brings the news.
+            language: of the page.
+        """
+        self._desk, self._hub = desk, hub
+        self._language, self._words = language, words_of(language)
+        self._guard = Guard(said_in(language))
+        self._sections: dict[str, ui.element] = {}
+        self._tabs: dict[str, ui.button] = {}
+        self._rail()
+        with ui.element("main").props("id=main").classes("main"):
+            ui.html(self._words("app.title"), tag="h1").classes("unseen")
+            for view in VIEWS:
+                self._sections[view] = ui.element("div").classes(f"view view-{view}")
+        with self._sections["now"]:
+            self._now = NowView(
+                desk, self._words, said_in(language), self._guard, lambda: self.open("setup")
+            )
+        self.open("now")
+
+    def open(self, view: str) -> None:
+        """Shows one of the views."""
+        for name, section in self._sections.items():
+            section.set_visibility(name == view)
+            tab = self._tabs[name]
+            tab.classes(add="is-here" if name == view else "", remove="is-here")
+            if name == view:
+                tab.props("aria-current=page")
+            else:
+                tab.props(remove="aria-current")
+
+    async def live(self, client: Client) -> None:
+        """Shows news as long as the window is there."""
+        await client.connected(timeout=30)
+        with client:
+            await self._now.settle()
+        viewer = self._hub.add(lambda state: self._show(client, state))
+        task = background_tasks.create(viewer.run(), name="viewer")
+
+        def gone() -> None:
+            task.cancel()
+            self._hub.remove(viewer)
+
+        client.on_delete(gone)
+
+    async def _show(self, client: Client, state: CellState) -> None:
+        with client:
+            await self._now.show(state)
+
+    def _rail(self) -> None:
+        words = self._words
+        with ui.element("nav").classes("rail").props(f'aria-label="{words("rail.title")}"'):
+            for view, sign in VIEWS.items():
+                tab = ui.button(words(f"rail.{view}"), icon=sign, on_click=self._opening(view))
+                tab.props("no-caps flat stack").classes("tab").mark(view)
+                self._tabs[view] = tab
+            ui.element("div").classes("space")
+            other = next(name for name in CATALOGUES if name != self._language)
+            button = ui.button(NAMES[other], icon="translate", on_click=self._speaking(other))
+            button.props(f"no-caps flat stack lang={other}").classes("tab").mark("language")
+            button = ui.button(words("rail.out"), icon="logout", on_click=self._leave)
+            button.props("no-caps flat stack").classes("tab").mark("sign out")
+
+    def _opening(self, view: str) -> Callable[[], None]:
+        return lambda: self.open(view)
+
+    @staticmethod
+    def _speaking(language: str) -> Callable[[], None]:
+        """The language is kept in the browser; the page is made anew in it."""
+        return lambda: ui.run_javascript(
+            f"document.cookie = 'depal-language={language}; path=/; max-age=31536000; "
+            "samesite=strict'; location.reload()"
+        ) and None
+
+    def _leave(self) -> None:
+        ui.navigate.to("/sign-in")
