@@ -1,13 +1,16 @@
 """The card that says what to do now."""
 
 from collections.abc import Callable, Sequence
+from inspect import isawaitable
 
 from nicegui import ui
 
 from depal.server.cellstate import CellState
 from depal.server.roles import WORKERS
 from depal.server.screen.desk import Desk, Waiting
+from depal.server.screen.files import ACCEPT, choose, problems
 from depal.server.screen.markup import Markup, icon, tag
+from depal.server.screen.pane import html, put
 from depal.server.screen.said import Said
 from depal.server.screen.toast import Guard
 from depal.server.screen.todo import Act, Todo, Verb, todo_of
@@ -19,6 +22,7 @@ ICONS = {
     Verb.RESUME: "play_arrow",
     Verb.STOP: "stop",
     Verb.BRING: "upload_file",
+    Verb.SAMPLE: "science",
     Verb.ANSWER: "",
 }
 
@@ -27,7 +31,7 @@ class Card:
     """Headline, reason, buttons."""
 
     def __init__(
-        self, desk: Desk, words: Words, said: Said, guard: Guard, bring: Callable[[], None]
+        self, desk: Desk, words: Words, said: Said, guard: Guard, queued: Callable[[], object]
     ) -> None:
         """Empty until it is shown a state.
 
@@ -36,16 +40,17 @@ class Card:
             words: of the screen.
             said: puts what the cell says into the screen's language.
             guard: against doing something twice.
-            bring: shows where deliveries are uploaded.
+            queued: called when the queue of deliveries has changed.
         """
         self._desk, self._words, self._said = desk, words, said
-        self._guard, self._bring = guard, bring
+        self._guard, self._queued = guard, queued
         self._may = desk.who.role in WORKERS
         self._shown: Todo | None = None
         with ui.element("section").classes("card todo") as self.element:
             self.element.props(f'aria-label="{words("todo.title")}"')
-            self._told = ui.html("").props("aria-live=polite").classes("told")
+            self._told = html("").props("aria-live=polite").classes("told")
             self._acts = ui.element("div").classes("acts")
+            self._problems = html().classes("all")
 
     def show(self, state: CellState, waiting: Sequence[Waiting]) -> None:
         """As the state is."""
@@ -54,7 +59,7 @@ class Card:
         if todo == self._shown:
             return
         before, self._shown = self._shown, todo
-        self._told.content = str(_told(todo))
+        put(self._told, _told(todo))
         if before is None or before.tone is not todo.tone:
             self.element.classes(replace=f"card todo is-{todo.tone.value}")
         if before is None or before.acts != todo.acts:
@@ -67,15 +72,31 @@ class Card:
         with self._acts:
             for act in acts:
                 look = "act is-main" if act.main else "act"
-                button = ui.button(act.label, on_click=self._doing(act, waiting)).classes(look)
+                button = ui.button(act.label, color=None).classes(look)
                 button.props("no-caps unelevated")
+                self._bind(button, act, waiting)
                 if ICONS[act.verb]:
                     button.props(f"icon={ICONS[act.verb]}")
                 button.mark(act.verb.value)
 
-    def _doing(self, act: Act, waiting: Sequence[Waiting]) -> Callable[[], object]:
+    def _bind(self, button: ui.button, act: Act, waiting: Sequence[Waiting]) -> None:
         if act.verb is Verb.BRING:
-            return self._bring
+            choose(button, ACCEPT, self._words("file.too_large"), self._bring)
+        else:
+            button.on_click(self._doing(act, waiting))
+
+    async def _bring(self, name: str, content: bytes) -> None:
+        done = self._words("done.upload", name=name)
+        await self._guard.do(done, self._desk.upload, name, content)
+        put(self._problems, problems(self._guard.problems, self._words))
+        await self._told_anew()
+
+    async def _told_anew(self) -> None:
+        found = self._queued()
+        if isawaitable(found):
+            await found
+
+    def _doing(self, act: Act, waiting: Sequence[Waiting]) -> Callable[[], object]:
         delivery = next((each.id for each in waiting if each.name == act.about), None)
 
         async def do() -> None:
@@ -88,6 +109,9 @@ class Card:
                 await self._guard.do(words("done.resume"), desk.resume)
             elif act.verb is Verb.STOP:
                 await self._guard.do(words("done.stop"), desk.stop_after_box)
+            elif act.verb is Verb.SAMPLE:
+                await self._guard.do(words("done.sample"), desk.sample)
+                await self._told_anew()
             else:
                 done = words("done.answer", choice=act.label)
                 await self._guard.do(done, desk.answer, act.about, act.choice)

@@ -3,17 +3,28 @@
 import asyncio
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol, TypeVar
 
 from depal.domain import CellLayout, Product
+from depal.server.cell import Settings
 from depal.server.cellstate import CellState
-from depal.server.roles import Principal
+from depal.server.roles import Principal, Role
 
 T = TypeVar("T")
 
 
 class Refused(Exception):  # noqa: N818 - no error of the screen: what was asked cannot be done
-    """What was asked for cannot be done; the text says why, for people."""
+    """What was asked for cannot be done; the text says why, for people.
+
+    Attributes:
+        problems: all that is wrong, where it is more than one thing.
+    """
+
+    def __init__(self, text: str, problems: Sequence[str] = ()) -> None:
+        """Says why."""
+        super().__init__(text)
+        self.problems = tuple(problems)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,8 +46,52 @@ class Waiting:
     state: str = "queued"
 
 
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A run that is or was.
+
+    Attributes:
+        number: of it.
+        delivery: its name.
+        state: running, done or aborted.
+        began: when, for people.
+        stored: how many boxes were stored.
+        boxes: how many there were.
+    """
+
+    number: int
+    delivery: str
+    state: str
+    began: str
+    stored: int | None = None
+    boxes: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Person:
+    """An account."""
+
+    name: str
+    role: Role
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A store system's way in.
+
+    Attributes:
+        id: of it.
+        name: what it is for.
+        expires: until when it is good, for people.
+    """
+
+    id: str
+    name: str
+    expires: str
+
+
 class Desk(Protocol):
-    """A person's side of the use cases; each may raise `Refused`."""
+    """A person's side of the use cases; each may raise `Refused`, none runs on the loop."""
 
     @property
     def who(self) -> Principal:
@@ -56,8 +111,20 @@ class Desk(Protocol):
         """Those that wait or are worked on, the next first."""
         ...
 
-    def upload(self, name: str, text: str) -> Sequence[Waiting]:
-        """Adds deliveries to the queue."""
+    def upload(self, name: str, content: bytes) -> Sequence[Waiting]:
+        """Adds the deliveries of a file to the queue."""
+        ...
+
+    def sample(self) -> Sequence[Waiting]:
+        """Adds a delivery that ships with the package."""
+        ...
+
+    def move_delivery(self, delivery: str, steps: int) -> None:
+        """Earlier or later in the queue."""
+        ...
+
+    def cancel_delivery(self, delivery: str) -> None:
+        """Not to be emptied any more."""
         ...
 
     def start(self, delivery: str | None) -> None:
@@ -81,7 +148,19 @@ class Desk(Protocol):
         ...
 
     def products(self) -> Sequence[Product]:
-        """Those that can be asked for, by name."""
+        """Those that the store knows, by name."""
+        ...
+
+    def put_product(self, product: Product) -> None:
+        """Keeps what a product is called, measures and weighs."""
+        ...
+
+    def product_picture(self, gtin: str) -> bytes:
+        """Its front; empty where there is none."""
+        ...
+
+    def put_picture(self, gtin: str, content: bytes) -> None:
+        """Keeps a product's front."""
         ...
 
     def add_request(
@@ -96,6 +175,54 @@ class Desk(Protocol):
 
     def cancel_request(self, key: str) -> None:
         """Not wanted any more."""
+        ...
+
+    def runs(self) -> Sequence[Run]:
+        """Every run, the latest first."""
+        ...
+
+    def record(self, number: int) -> Path:
+        """The folder with the record of a run."""
+        ...
+
+    def settings(self) -> Settings:
+        """Of the cell."""
+        ...
+
+    def put_settings(self, settings: Settings) -> None:
+        """Other settings."""
+        ...
+
+    def people(self) -> Sequence[Person]:
+        """The accounts."""
+        ...
+
+    def add_person(self, name: str, role: Role, password: str) -> None:
+        """A new account."""
+        ...
+
+    def change_role(self, name: str, role: Role) -> None:
+        """Somebody may do more or less."""
+        ...
+
+    def set_password(self, name: str, password: str) -> None:
+        """Another password."""
+        ...
+
+    def remove_person(self, name: str) -> None:
+        """Somebody leaves."""
+        ...
+
+    def tokens(self) -> Sequence[Token]:
+        """The ways in for systems."""
+        ...
+
+    def add_token(self, name: str, days: int) -> str:
+        """A new one, which is shown this once."""
+        ...
+
+    def revoke_token(self, token: str) -> None:
+        """Good no more."""
         ...
 
 

@@ -1,27 +1,33 @@
 """A desk over a cell alone, until the use cases are there: queue, keys and names in memory."""
 
 import itertools
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from depal.domain import BoxId, CellLayout, Delivery, Gtin, Product, Request
-from depal.errors import DepalError
+from depal.errors import DepalError, InputError
+from depal.logistics import shipped_deliveries
 from depal.logistics.delivery_csv import delivery_of_csv
 from depal.logistics.delivery_json import deliveries_of_json
-from depal.server.cell import Cell, Order, Refusal
+from depal.server.cell import Cell, Order, Refusal, Settings
 from depal.server.cellstate import CellState
 from depal.server.roles import Principal, Role
-from depal.server.screen.desk import Refused, Waiting
+from depal.server.screen.desk import Person, Refused, Run, Token, Waiting
 
 
 class Interim:
     """What all desks share."""
 
-    def __init__(self, cell: Cell) -> None:
+    def __init__(self, cell: Cell, records: Path | None = None) -> None:
         """An empty queue."""
-        self.cell = cell
+        self.cell, self.records = cell, records
         self.queue: list[tuple[Waiting, Delivery]] = []
         self.numbers = itertools.count(1)
+        self.people = [Person("anna", Role.INTEGRATOR)]
+        self.tokens: list[Token] = []
+        self.known: dict[Gtin, Product] = {}
+        self.pictures: dict[str, bytes] = {}
 
 
 class InterimDesk:
@@ -40,35 +46,57 @@ class InterimDesk:
         return self._shared.cell.state()
 
     def deliveries(self) -> Sequence[Waiting]:
-        return [waiting for waiting, _ in self._shared.queue]
+        return [waiting for waiting, _ in self._shared.queue if waiting.state != "cancelled"]
 
-    def upload(self, name: str, text: str) -> Sequence[Waiting]:
+    def upload(self, name: str, content: bytes) -> Sequence[Waiting]:
         try:
+            text = content.decode("utf-8")
             if name.lower().endswith(".csv"):
-                found: Sequence[Delivery] = [delivery_of_csv(text, name[:-4], name)]
-            else:
-                found = deliveries_of_json(text, name)
-        except DepalError as error:
-            raise Refused(str(error)) from error
+                return self._queue([delivery_of_csv(text, name[:-4], name)])
+            return self._queue(deliveries_of_json(text, name))
+        except UnicodeDecodeError as error:
+            raise Refused(f"{name}: is no text") from error
+        except InputError as error:
+            raise Refused(str(error), [str(problem) for problem in error.problems]) from error
+
+    def sample(self) -> Sequence[Waiting]:
+        return self._queue(shipped_deliveries()[:1])
+
+    def _queue(self, found: Sequence[Delivery]) -> Sequence[Waiting]:
         for delivery in found:
             boxes = sum(line.count for line in delivery.lines)
             number = str(next(self._shared.numbers))
-            self._shared.queue.append(
-                (Waiting(number, delivery.id, boxes, self.who.name), delivery)
-            )
+            waiting = Waiting(number, delivery.id, boxes, self.who.name)
+            self._shared.queue.append((waiting, delivery))
+            self._shared.known.update(delivery.products)
         return self.deliveries()
+
+    def move_delivery(self, delivery: str, steps: int) -> None:
+        queue = self._shared.queue
+        place = self._place(delivery)
+        queue.insert(max(place + steps, 0), queue.pop(place))
+
+    def cancel_delivery(self, delivery: str) -> None:
+        self._become(self._place(delivery), "cancelled")
+
+    def _place(self, delivery: str) -> int:
+        for place, (waiting, _) in enumerate(self._shared.queue):
+            if waiting.id == delivery and waiting.state == "queued":
+                return place
+        raise Refused("this delivery is in the queue no more")
+
+    def _become(self, place: int, state: str) -> None:
+        waiting, delivery = self._shared.queue[place]
+        self._shared.queue[place] = (replace(waiting, state=state), delivery)
 
     def start(self, delivery: str | None) -> None:
         if delivery is None:
             self._ask(lambda: self._shared.cell.start())
             return
-        found = next((both for both in self._shared.queue if both[0].id == delivery), None)
-        if found is None or found[0].state != "queued":
-            raise Refused("somebody has started this delivery already")
-        order = Order(next(self._shared.numbers), found[1])
+        place = self._place(delivery)
+        order = Order(next(self._shared.numbers), self._shared.queue[place][1])
         self._ask(lambda: self._shared.cell.start(order))
-        place = self._shared.queue.index(found)
-        self._shared.queue[place] = (replace(found[0], state="running"), found[1])
+        self._become(place, "running")
 
     def hold(self) -> None:
         self._ask(lambda: self._shared.cell.hold(self.who.name))
@@ -83,8 +111,18 @@ class InterimDesk:
         self._ask(lambda: self._shared.cell.answer(question, choice, self.who.name))
 
     def products(self) -> Sequence[Product]:
-        found = {p.gtin: p for _, d in self._shared.queue for p in d.products.values()}
-        return sorted(found.values(), key=lambda product: product.name)
+        return sorted(self._shared.known.values(), key=lambda product: product.name)
+
+    def put_product(self, product: Product) -> None:
+        self._shared.known[product.gtin] = product
+
+    def product_picture(self, gtin: str) -> bytes:
+        return self._shared.pictures.get(gtin, b"")
+
+    def put_picture(self, gtin: str, content: bytes) -> None:
+        if content[:4] not in {b"\x89PNG"} and content[:2] != b"\xff\xd8":
+            raise Refused("this is neither a PNG nor a JPEG picture")
+        self._shared.pictures[gtin] = content
 
     def add_request(
         self, gtin: str | None, box: str | None, priority: float, minutes: float | None
@@ -93,11 +131,7 @@ class InterimDesk:
         due = None if minutes is None else now + 60 * minutes
         try:
             request = Request(
-                priority,
-                Gtin(gtin) if gtin else None,
-                BoxId(box) if box else None,
-                now,
-                due,
+                priority, Gtin(gtin) if gtin else None, BoxId(box) if box else None, now, due
             )
         except DepalError as error:
             raise Refused(str(error)) from error
@@ -122,7 +156,57 @@ class InterimDesk:
     def cancel_request(self, key: str) -> None:
         self._ask(lambda: self._shared.cell.cancel_request(key))
 
-    def _ask(self, command) -> None:  # noqa: ANN001
+    def runs(self) -> Sequence[Run]:
+        records = self._shared.records
+        if records is None:
+            return []
+        folders = sorted((path for path in records.iterdir() if path.is_dir()), reverse=True)
+        return [Run(int(path.name), "dev-000", "done", "", None, None) for path in folders]
+
+    def record(self, number: int) -> Path:
+        if self._shared.records is None:
+            raise Refused(f"there is no run {number}")
+        return self._shared.records / str(number)
+
+    def settings(self) -> Settings:
+        state = self.state()
+        return Settings(state.w, state.speed, state.policy)
+
+    def put_settings(self, settings: Settings) -> None:
+        self._ask(lambda: self._shared.cell.set(settings))
+
+    def people(self) -> Sequence[Person]:
+        return self._shared.people
+
+    def add_person(self, name: str, role: Role, password: str) -> None:
+        if len(password) < 8:
+            raise Refused("a password has at least 8 letters")
+        self._shared.people.append(Person(name, role))
+
+    def change_role(self, name: str, role: Role) -> None:
+        self._shared.people = [
+            replace(person, role=role) if person.name == name else person
+            for person in self._shared.people
+        ]
+
+    def set_password(self, name: str, password: str) -> None:
+        if len(password) < 8:
+            raise Refused("a password has at least 8 letters")
+
+    def remove_person(self, name: str) -> None:
+        self._shared.people = [each for each in self._shared.people if each.name != name]
+
+    def tokens(self) -> Sequence[Token]:
+        return self._shared.tokens
+
+    def add_token(self, name: str, days: int) -> str:
+        self._shared.tokens.append(Token(str(next(self._shared.numbers)), name, f"{days} d"))
+        return "not-a-real-token"
+
+    def revoke_token(self, token: str) -> None:
+        self._shared.tokens = [each for each in self._shared.tokens if each.id != token]
+
+    def _ask(self, command: Callable[[], None]) -> None:
         try:
             command()
         except Refusal as refusal:

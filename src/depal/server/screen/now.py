@@ -1,14 +1,13 @@
 """The view *Now*: what to do, the cell, the requests, the queue, the trolleys."""
 
 import time
-from collections.abc import Callable
 
 from nicegui import ui
 
 from depal.server.cellstate import CellState
 from depal.server.screen.card import Card
 from depal.server.screen.desk import Desk, Waiting, asked
-from depal.server.screen.pane import Pane
+from depal.server.screen.pane import Pane, html
 from depal.server.screen.panels.alarms import alarms
 from depal.server.screen.panels.queue import queue_table
 from depal.server.screen.panels.summary import summary
@@ -25,9 +24,7 @@ from depal.server.screen.words import Words
 class NowView:
     """One window's *Now*."""
 
-    def __init__(
-        self, desk: Desk, words: Words, said: Said, guard: Guard, bring: Callable[[], None]
-    ) -> None:
+    def __init__(self, desk: Desk, words: Words, said: Said, guard: Guard) -> None:
         """Empty until it is shown a state.
 
         Args:
@@ -35,26 +32,28 @@ class NowView:
             words: of the screen.
             said: puts what the cell says into the screen's language.
             guard: against doing something twice.
-            bring: shows where deliveries are uploaded.
         """
         self._desk = desk
         self._waiting: tuple[Waiting, ...] = ()
+        self._state: CellState | None = None
         self._run: tuple[object, ...] = ()
         self._summary = Pane(lambda state: summary(state, words), "summary-line")
-        self._card = Card(desk, words, said, guard, bring)
+        self._card = Card(desk, words, said, guard, self.refresh)
         self._alarms = Pane(lambda state: alarms(state, _shown(state), words, said))
         with ui.element("div").classes("now-grid"):
             with ui.element("div").classes("now-left"):
                 self._view = CellView(desk.layout, words)
                 with ui.element("section").classes("card"):
-                    ui.html(words("trolley.title"), tag="h3")
+                    html(words("trolley.title"), "h3")
                     self._trolleys = Pane(lambda state: trolleys(state, words))
             with ui.element("div").classes("now-right"):
                 self._wishes = Wishes(desk, words, guard)
                 with ui.element("section").classes("card"):
-                    ui.html(words("queue.title"), tag="h3")
+                    html(words("queue.title"), "h3")
                     self._queue = Pane(lambda state: queue_table(state, words, said), "scrolls")
-                    self._queue.element.props(f'tabindex=0 role=region aria-label="{words("queue.title")}"')
+                    self._queue.element.props(
+                        f'tabindex=0 role=region aria-label="{words("queue.title")}"'
+                    )
                 self._picture = CameraPicture(words)
         self._panes = (self._summary, self._alarms, self._trolleys, self._queue)
 
@@ -65,10 +64,13 @@ class NowView:
     async def refresh(self) -> None:
         """Asks anew for what the cell's state does not tell."""
         self._waiting = tuple(await asked(self._desk.deliveries))
+        if self._state is not None:
+            self._card.show(self._state, self._waiting)
         self._wishes.name_products(await asked(self._desk.products))
 
     async def show(self, state: CellState) -> None:
         """As the state is."""
+        self._state = state
         run = (state.run, state.mode)
         if run != self._run:
             self._run = run

@@ -1,15 +1,32 @@
-"""A part of a page that is drawn anew only when it has changed."""
+"""Text and markup in a page: the only way in, and everything that is no markup is escaped."""
 
 from collections.abc import Callable
 
 from nicegui import ui
 
 from depal.server.cellstate import CellState
-from depal.server.screen.markup import Markup
+from depal.server.screen.markup import Content, Markup, text
+
+
+def html(content: Content = "", name: str = "div") -> ui.html:
+    """An element with text or markup in it.
+
+    Args:
+        content: markup as it is, all else escaped.
+        name: of the element.
+    """
+    return ui.html(str(text(content)), tag=name)
+
+
+def put(element: ui.html, content: Content) -> None:
+    """Other text or markup in an element; nothing is sent where it is the same."""
+    found = str(text(content))
+    if found != element.content:
+        element.content = found
 
 
 class Pane:
-    """Markup in a page."""
+    """A part of a page that is drawn anew only when it has changed."""
 
     def __init__(self, draw: Callable[[CellState], Markup], classes: str = "") -> None:
         """Empty until it is shown a state.
@@ -19,10 +36,8 @@ class Pane:
             classes: of the element.
         """
         self._draw = draw
-        self.element = ui.html("").classes(classes)
+        self.element = html().classes(classes)
 
     def show(self, state: CellState) -> None:
-        """As the state is; nothing is sent where that looks the same."""
-        found = self._draw(state)
-        if found != self.element.content:
-            self.element.content = str(found)
+        """As the state is."""
+        put(self.element, self._draw(state))

@@ -3,6 +3,7 @@
 from nicegui import ui
 
 from depal.server.cellstate import CellState
+from depal.server.screen.pane import html
 from depal.server.screen.words import Words
 
 ADDRESS = "/screen/picture"
@@ -15,8 +16,8 @@ class CameraPicture:
         """No picture yet."""
         self._number = 0
         with ui.element("section").classes("card camera"):
-            ui.html(words("picture.title"), tag="h3")
-            self._none = ui.html(words("picture.none"), tag="p").classes("quiet")
+            html(words("picture.title"), "h3")
+            self._none = html(words("picture.none"), "p").classes("quiet")
             self._image = ui.element("img").props(f'alt="{words("picture.what")}"')
             self._image.set_visibility(False)
 

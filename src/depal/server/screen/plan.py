@@ -8,15 +8,18 @@ from depal.domain import CellLayout
 from depal.geometry import Vector3
 from depal.server.cellstate import CellState, Solid
 from depal.server.screen.markup import Markup, joined, tag
-from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, blockers_of, mark_of
+from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, marks_of
 from depal.server.screen.posture import posture
 from depal.server.screen.words import Words
 
 SCALE = 100.0
 """Units of the drawing per metre."""
 
-CEILING = 2.6
+CEILING = 2.2
 """So high is the view from the front [m]."""
+
+NEAR = 0.7
+"""From here on the end of the arm is before the pallet [m]."""
 
 Point = tuple[float, float]
 View = Callable[[Vector3], Point]
@@ -60,16 +63,17 @@ def corners_of(solid: Solid) -> tuple[Vector3, ...]:
 
 def pile_of(state: CellState) -> tuple[Drawn, ...]:
     """The boxes on the pallet with their marks."""
-    blockers = blockers_of(state)
-    return tuple(
-        Drawn(line.box, line.solid, mark_of(line, state.target, blockers)) for line in state.queue
-    )
+    marks = marks_of(state)
+    return tuple(Drawn(line.box, line.solid, marks[line.box]) for line in state.queue)
 
 
 def plan(layout: CellLayout, state: CellState, words: Words) -> Markup:
     """The view from above."""
     (left, low), (right, high) = layout.floor
-    frame = f"{-high * SCALE} {-right * SCALE} {(high - low) * SCALE} {(right - left) * SCALE}"
+    frame = (
+        f"{-high * SCALE:.0f} {-right * SCALE:.0f} "
+        f"{(high - low) * SCALE:.0f} {(right - left) * SCALE:.0f}"
+    )
     boxes = sorted(pile_of(state), key=lambda drawn: drawn.solid.centre[2])
     parts = [
         *_ground(layout),
@@ -85,16 +89,16 @@ def elevation(layout: CellLayout, state: CellState, words: Words) -> Markup:
     """The view from the arm to the pallet."""
     stand = layout.pallet
     length, _, deck = stand.size
-    frame = f"{-0.95 * SCALE} {-CEILING * SCALE} {1.9 * SCALE} {(CEILING + 0.1) * SCALE}"
+    frame = f"{-0.75 * SCALE:.0f} {-CEILING * SCALE:.0f} {1.5 * SCALE:.0f} {(CEILING + 0.1) * SCALE:.0f}"
     boxes = sorted(pile_of(state), key=lambda drawn: -drawn.solid.centre[0])
     left, top = from_front((0.0, length / 2, 0.0))
     parts = [
-        tag("line", x1=-95, y1=0, x2=95, y2=0, cls="floor"),
+        tag("line", x1=-75, y1=0, x2=75, y2=0, cls="floor"),
         tag("rect", x=left, y=top - deck * SCALE, width=length * SCALE, height=deck * SCALE,
             cls="pallet"),
         *(_front(drawn) for drawn in boxes),
-        *_arm(layout, state, from_front),
         *(_sign(drawn, from_front) for drawn in boxes),
+        _tool(layout, state),
     ]  # fmt: skip
     return tag("svg", *parts, viewBox=frame, role="img", aria_label=words("view.elevation"))
 
@@ -110,14 +114,14 @@ def _ground(layout: CellLayout) -> Iterator[Markup]:
     yield tag("polygon", points=_points(map(pallet.apply, ring), from_above), cls="pallet")
     for storage in layout.storages:
         across, deep, _ = storage.size
-        ring = tuple(
+        corners = tuple(
             (a, b, 0.0)
             for a, b in ((0.0, -across / 2), (deep, -across / 2), (deep, across / 2),
                          (0.0, across / 2))
         )  # fmt: skip
         pose = storage.cell_from_storage
-        yield tag("polygon", points=_points(map(pose.apply, ring), from_above), cls="storage")
-        x, y = from_above(pose.apply((deep - 0.12, 0.0, 0.0)))
+        yield tag("polygon", points=_points(map(pose.apply, corners), from_above), cls="storage")
+        x, y = from_above(pose.apply((deep / 2, 0.0, 0.0)))
         yield tag("text", storage.id.replace("_", " "), x=round(x), y=round(y) + 5, cls="name")
 
 
@@ -163,6 +167,15 @@ def _arm(layout: CellLayout, state: CellState, view: View) -> Iterator[Markup]:
     yield tag("circle", cx=round(x), cy=round(y), r=11, cls="tool")
     if state.held is not None:
         yield tag("text", state.held, x=round(x) + 16, y=round(y) - 10, cls="held")
+
+
+def _tool(layout: CellLayout, state: CellState) -> Markup | None:
+    """The end of the arm, where it is before the pallet: the arm itself would hide the boxes."""
+    flange = posture(layout.robot, state.joints)[-1].origin
+    if flange[0] < NEAR:
+        return None
+    x, y = from_front(flange)
+    return tag("circle", cx=round(x), cy=round(y), r=11, cls="tool")
 
 
 def both(layout: CellLayout, state: CellState, words: Words) -> Markup:

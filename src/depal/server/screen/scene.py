@@ -25,6 +25,9 @@ LABEL = (
     "border:1.5px solid {line};background:{fill};color:{text};white-space:nowrap"
 )
 
+LINKS = 7
+"""The base and six more; after them comes the tool."""
+
 EYE, AIM = (-3.1, -2.2, 3.9), (0.75, -0.05, 0.45)
 """Where one looks from, and at what [m]."""
 
@@ -68,7 +71,7 @@ class CellScene:
             400, 300, grid=False, camera=camera, background_color=BACKGROUND, click_events=[]
         ) as self.element:
             self._draw_still()
-            self._links = [self._draw_link(number) for number in range(8)]
+            self._links = [self._draw_link(number) for number in range(LINKS + 1)]
         self.element.move_camera(*EYE, *AIM, duration=0)
         self._pose(posture(layout.robot, ()))
 
@@ -105,7 +108,9 @@ class CellScene:
 
     def _panel(self, pose: Pose, panel: OrientedBox) -> None:
         turn = _times(pose.rotation, panel.pose.rotation)
-        solid = self._block(pose.apply(panel.centre), panel.size, rows(turn), STEEL, edges="#7b838b")
+        solid = self._block(
+            pose.apply(panel.centre), panel.size, rows(turn), STEEL, edges="#7b838b"
+        )
         solid.material(STEEL, 0.16)
 
     def _block(
@@ -125,14 +130,10 @@ class CellScene:
             for capsule in self._layout.robot.shapes:
                 if capsule.link == number:
                     self._capsule(capsule)
-            if number == len(self._links_of()) - 1:
-                for part in self._layout.tool.solids:
+            if number == LINKS:
+                for part in self._layout.tool.shapes:
                     self._block(part.centre, part.size, rows(part.pose.rotation), JOINT)
         return group
-
-    @staticmethod
-    def _links_of() -> range:
-        return range(8)
 
     def _capsule(self, capsule: Capsule) -> None:
         start, end, radius = capsule.start, capsule.end, capsule.radius
@@ -174,8 +175,8 @@ class CellScene:
             self.element.box(*solid.size).material(tint.fill)
             self.element.box(*solid.size, wireframe=True).material(tint.line)
             if drawn.mark is not Mark.PLAIN:
-                rim = [edge + 0.015 for edge in solid.size]
-                self.element.box(*rim, wireframe=True).material(tint.line)
+                x, y, z = (edge + 0.015 for edge in solid.size)
+                self.element.box(x, y, z, wireframe=True).material(tint.line)
                 look = LABEL.format(line=tint.line, fill=tint.fill, text=tint.text)
                 word = f"{SHAPES[drawn.mark]} {drawn.name}"
                 self.element.text(word, look).move(-solid.size[0] / 2, 0.0, solid.size[2] / 4)

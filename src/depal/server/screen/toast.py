@@ -22,7 +22,11 @@ def refused(message: str) -> None:
 
 
 class Guard:
-    """One command at a time for each window: what is pressed meanwhile was pressed twice."""
+    """One command at a time for each window: what is pressed meanwhile was pressed twice.
+
+    Attributes:
+        problems: all that was wrong with what was refused last.
+    """
 
     def __init__(self, said: Said) -> None:
         """Nothing is under way.
@@ -32,6 +36,7 @@ class Guard:
         """
         self._said = said
         self._busy = False
+        self.problems: tuple[str, ...] = ()
 
     async def do(self, message: str, command: Callable[..., object], *arguments: object) -> bool:
         """Calls a use case and tells what came of it.
@@ -46,11 +51,12 @@ class Guard:
         """
         if self._busy:
             return False
-        self._busy = True
+        self._busy, self.problems = True, ()
         try:
             await asked(command, *arguments)
         except Refused as refusal:
-            refused(self._said(str(refusal)))
+            self.problems = refusal.problems
+            refused(self._said(str(refusal).splitlines()[0]))
             return False
         finally:
             self._busy = False

@@ -30,6 +30,7 @@ class Verb(Enum):
     STOP = "stop"
     ANSWER = "answer"
     BRING = "bring"
+    SAMPLE = "sample"
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,9 +119,10 @@ def _alarmed(
     return Todo(Tone.ALARM, "warning", said(alarm.todo), said(alarm.text), acts)
 
 
-def _starts(waiting: Sequence[str], words: Words) -> tuple[Act, ...]:
+def _starts(waiting: Sequence[str], words: Words, *, first: bool = False) -> tuple[Act, ...]:
     if not waiting:
-        return (Act(Verb.BRING, words("act.bring")),)
+        sample = (Act(Verb.SAMPLE, words("act.sample"), main=False),) if first else ()
+        return (Act(Verb.BRING, words("act.bring")), *sample)
     return (
         Act(Verb.START, words("act.start_delivery", delivery=waiting[0]), about=waiting[0]),
         Act(Verb.BRING, words("act.bring"), main=False),
@@ -145,7 +147,8 @@ def _plain(state: CellState, waiting: Sequence[str], words: Words, said: Said) -
         return Todo(Tone.WAITING, "check_circle", words(key), detail, _starts(waiting, words))
     key = "todo.idle_next" if waiting else "todo.idle"
     detail = words("todo.idle_next_how" if waiting else "todo.idle_how")
-    return Todo(Tone.WAITING, "inbox", words(key), detail, _starts(waiting, words))
+    acts = _starts(waiting, words, first=state.run is None)
+    return Todo(Tone.WAITING, "inbox", words(key), detail, acts)
 
 
 def _working(state: CellState, words: Words) -> Todo:

@@ -4,8 +4,9 @@ from nicegui import ui
 
 from depal.domain import CellLayout
 from depal.server.cellstate import CellState
-from depal.server.screen.panels.marks import SHAPES, TINTS, Mark
 from depal.server.screen.markup import Markup, joined, tag
+from depal.server.screen.pane import html, put
+from depal.server.screen.panels.marks import SHAPES, TINTS, Mark
 from depal.server.screen.plan import both
 from depal.server.screen.scene import CellScene
 from depal.server.screen.words import Words
@@ -40,14 +41,14 @@ class CellView:
         self._drawn = 0.0
         with ui.element("section").classes("card cell"):
             with ui.element("div").classes("head"):
-                ui.html(words("view.title"), tag="h3")
+                html(words("view.title"), "h3")
                 kinds = {"scene": words("view.scene"), "plan": words("view.flat")}
                 self._switch = ui.toggle(kinds, value="plan", on_change=self._choose)
                 self._switch.props("no-caps unelevated").mark("view")
             self._room = ui.element("div").classes("room")
             with self._room:
-                self._plan = ui.html("").classes("plan")
-            ui.html(legend(words)).classes("legend")
+                self._plan = html("").classes("plan")
+            html(legend(words)).classes("legend")
 
     async def settle(self) -> None:
         """Asks the browser what it can draw."""
@@ -66,9 +67,7 @@ class CellView:
             self._scene.show(state)
         elif now - self._drawn >= SLOW:
             self._drawn = now
-            found = str(both(self._layout, state, self._words))
-            if found != self._plan.content:
-                self._plan.content = found
+            put(self._plan, both(self._layout, state, self._words))
 
     def _show_kind(self, kind: str) -> None:
         self._kind = kind
@@ -78,9 +77,7 @@ class CellView:
         if kind == "scene" and self._scene is None:
             with self._room:
                 self._scene = CellScene(self._layout)
-                self._scene.element.props(
-                    f'role=img aria-label="{self._words("view.scene_what")}"'
-                )
+                self._scene.element.props(f'role=img aria-label="{self._words("view.scene_what")}"')
         if self._scene is not None:
             self._scene.element.set_visibility(kind == "scene")
         if self._state is not None:
@@ -102,6 +99,6 @@ def legend(words: Words) -> Markup:
             tag("span", SHAPES[mark], style=f"color:{TINTS[mark].line}", aria_hidden="true"),
             words(f"legend.{mark.value}"),
         )
-        for mark in (Mark.TARGET, Mark.REQUESTED, Mark.BLOCKER)
+        for mark in (Mark.TARGET, Mark.REQUESTED, Mark.BLOCKER, Mark.ASKED)
     )
     return tag("ul", joined(items))

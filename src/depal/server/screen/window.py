@@ -9,7 +9,10 @@ from depal.server.cellstate import CellState
 from depal.server.screen.desk import Desk
 from depal.server.screen.hub import Hub
 from depal.server.screen.now import NowView
+from depal.server.screen.pane import html
+from depal.server.screen.past import PastView
 from depal.server.screen.said import said_in
+from depal.server.screen.setup import SetupView
 from depal.server.screen.toast import Guard
 from depal.server.screen.words import CATALOGUES, NAMES, words_of
 
@@ -33,27 +36,39 @@ class Window:
         self._guard = Guard(said_in(language))
         self._sections: dict[str, ui.element] = {}
         self._tabs: dict[str, ui.button] = {}
+        self._past: PastView | None = None
+        self._setup: SetupView | None = None
         self._rail()
         with ui.element("main").props("id=main").classes("main"):
-            ui.html(self._words("app.title"), tag="h1").classes("unseen")
+            html(self._words("app.title"), "h1").classes("unseen")
             for view in VIEWS:
                 self._sections[view] = ui.element("div").classes(f"view view-{view}")
         with self._sections["now"]:
-            self._now = NowView(
-                desk, self._words, said_in(language), self._guard, lambda: self.open("setup")
-            )
-        self.open("now")
+            self._now = NowView(desk, self._words, said_in(language), self._guard)
+        self._show_only("now")
 
-    def open(self, view: str) -> None:
-        """Shows one of the views."""
-        for name, section in self._sections.items():
-            section.set_visibility(name == view)
-            tab = self._tabs[name]
-            tab.classes(add="is-here" if name == view else "", remove="is-here")
-            if name == view:
-                tab.props("aria-current=page")
+    async def open(self, view: str) -> None:
+        """Shows one of the views; what is not *Now* is made when it is first opened."""
+        self._show_only(view)
+        with self._sections[view]:
+            if view == "past":
+                self._past = self._past or PastView(
+                    self._desk, self._words, said_in(self._language)
+                )
+                await self._past.open()
+            elif view == "setup":
+                self._setup = self._setup or SetupView(self._desk, self._words, self._guard)
+                await self._setup.open()
             else:
-                tab.props(remove="aria-current")
+                await self._now.refresh()
+
+    def _show_only(self, view: str) -> None:
+        for name, section in self._sections.items():
+            here = name == view
+            section.set_visibility(here)
+            tab = self._tabs[name]
+            tab.classes(add="is-here" if here else "", remove="" if here else "is-here")
+            tab.props("aria-current=page" if here else "", remove="" if here else "aria-current")
 
     async def live(self, client: Client) -> None:
         """Shows news as long as the window is there."""
@@ -77,26 +92,33 @@ class Window:
         words = self._words
         with ui.element("nav").classes("rail").props(f'aria-label="{words("rail.title")}"'):
             for view, sign in VIEWS.items():
-                tab = ui.button(words(f"rail.{view}"), icon=sign, on_click=self._opening(view))
+                tab = ui.button(words(f"rail.{view}"), icon=sign, color=None)
+                tab.on_click(self._opening(view))
                 tab.props("no-caps flat stack").classes("tab").mark(view)
                 self._tabs[view] = tab
             ui.element("div").classes("space")
             other = next(name for name in CATALOGUES if name != self._language)
-            button = ui.button(NAMES[other], icon="translate", on_click=self._speaking(other))
+            button = ui.button(
+                NAMES[other], icon="translate", color=None, on_click=self._speaking(other)
+            )
             button.props(f"no-caps flat stack lang={other}").classes("tab").mark("language")
-            button = ui.button(words("rail.out"), icon="logout", on_click=self._leave)
+            button = ui.button(words("rail.out"), icon="logout", color=None, on_click=self._leave)
             button.props("no-caps flat stack").classes("tab").mark("sign out")
 
-    def _opening(self, view: str) -> Callable[[], None]:
+    def _opening(self, view: str) -> Callable[[], object]:
         return lambda: self.open(view)
 
     @staticmethod
     def _speaking(language: str) -> Callable[[], None]:
         """The language is kept in the browser; the page is made anew in it."""
-        return lambda: ui.run_javascript(
-            f"document.cookie = 'depal-language={language}; path=/; max-age=31536000; "
-            "samesite=strict'; location.reload()"
-        ) and None
+
+        def speak() -> None:
+            ui.run_javascript(
+                f"document.cookie = 'depal-language={language}; path=/; max-age=31536000; "
+                "samesite=strict'; location.reload()"
+            )
+
+        return speak
 
     def _leave(self) -> None:
         ui.navigate.to("/sign-in")

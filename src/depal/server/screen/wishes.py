@@ -9,6 +9,7 @@ from depal.server.cellstate import CellState, RequestState
 from depal.server.roles import WORKERS
 from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import Markup, tag
+from depal.server.screen.pane import html, put
 from depal.server.screen.toast import Guard, refused
 from depal.server.screen.words import Words
 
@@ -39,19 +40,21 @@ class Row:
         self._desk, self._words, self._guard, self._key = desk, words, guard, key
         self._request: RequestState | None = None
         with ui.element("li").classes("wish") as self.element:
-            self._told = ui.html("").classes("told")
+            self._told = html("").classes("told")
             if desk.who.role in WORKERS:
-                self._level = ui.button(on_click=self._change).props("no-caps outline")
+                self._level = ui.button("", color=None, on_click=self._change).props(
+                    "no-caps outline"
+                )
                 self._level.classes("small")
-                self._drop = ui.button(icon="close", on_click=self._cancel).props("flat")
+                self._drop = ui.button(icon="close", color=None, on_click=self._cancel).props(
+                    "flat"
+                )
                 self._drop.classes("small")
 
     def show(self, request: RequestState, name: str, now: float) -> None:
         """As it is now."""
         self._request = request
-        found = str(_told(request, name, now, self._words))
-        if self._told.content != found:
-            self._told.content = found
+        put(self._told, _told(request, name, now, self._words))
         if self._desk.who.role in WORKERS:
             level = self._words(f"wish.{level_of(request.priority)}")
             self._level.set_text(level)
@@ -94,11 +97,13 @@ class Wishes:
         self._boxes: tuple[str, ...] = ()
         with ui.element("section").classes("card wishes"):
             with ui.element("div").classes("head"):
-                ui.html(words("wish.title"), tag="h3")
+                html(words("wish.title"), "h3")
                 if desk.who.role in WORKERS:
-                    button = ui.button(words("wish.add"), icon="add", on_click=self._open)
+                    button = ui.button(
+                        words("wish.add"), icon="add", color=None, on_click=self._open
+                    )
                     button.props("no-caps unelevated").classes("act").mark("add request")
-            self._none = ui.html(words("wish.none"), tag="p").classes("quiet")
+            self._none = html(words("wish.none"), "p").classes("quiet")
             self._list = ui.element("ul")
         self._form = ui.dialog()
 
@@ -133,7 +138,7 @@ class Wishes:
         self.name_products(await asked(self._desk.products))
         self._form.clear()
         with self._form, ui.card().classes("form").props("role=dialog"):
-            ui.html(words("wish.add_title"), tag="h3")
+            html(words("wish.add_title"), "h3")
             options = {f"p {gtin}": name for gtin, name in self._names.items()}
             options |= {f"b {box}": words("wish.box", box=box) for box in self._boxes}
             what = ui.select(options, label=words("wish.what"), with_input=True)
@@ -144,13 +149,13 @@ class Wishes:
             due = ui.number(words("wish.due_in"), min=1, max=1440, precision=0)
             due.props("outlined clearable").classes("wide")
             with ui.element("div").classes("acts"):
-                cancel = ui.button(words("act.close"), on_click=self._form.close)
-                cancel.props("no-caps outline").classes("act")
+                cancel = ui.button(words("act.close"), color=None, on_click=self._form.close)
+                cancel.props("no-caps unelevated").classes("act")
 
                 async def add() -> None:
                     await self._add(what.value, LEVELS[level.value or "next"], due.value)
 
-                button = ui.button(words("wish.add"), icon="add", on_click=add)
+                button = ui.button(words("wish.add"), icon="add", color=None, on_click=add)
                 button.props("no-caps unelevated").classes("act is-main").mark("send request")
         self._form.open()
 

@@ -14,6 +14,7 @@ from depal.server.cellstate import CellState, Mode, QueueLine
 class Mark(Enum):
     """What stands out among the boxes on the pallet."""
 
+    ASKED = "asked"
     TARGET = "target"
     REQUESTED = "requested"
     BLOCKER = "blocker"
@@ -21,11 +22,18 @@ class Mark(Enum):
 
 
 SHAPES: Final[Mapping[Mark, str]] = MappingProxyType(
-    {Mark.TARGET: "▼", Mark.REQUESTED: "★", Mark.BLOCKER: "◆", Mark.PLAIN: ""}
+    {
+        Mark.ASKED: "?",
+        Mark.TARGET: "▼",
+        Mark.REQUESTED: "★",
+        Mark.BLOCKER: "◆",
+        Mark.PLAIN: "",
+    }
 )
 
 TINTS: Final[Mapping[Mark, Tint]] = MappingProxyType(
     {
+        Mark.ASKED: Tint("#ffc933", "#7a5a00", "#2a2000"),
         Mark.TARGET: Tint("#cfdff2", "#1d4473", "#1d4473"),
         Mark.REQUESTED: Tint("#e6dcef", "#5b3a7a", "#4a2d66"),
         Mark.BLOCKER: Tint("#e9e2d3", "#6d5a2c", "#55451f"),
@@ -83,8 +91,16 @@ def blockers_of(state: CellState) -> frozenset[str]:
     return frozenset(found)
 
 
-def mark_of(line: QueueLine, target: str | None, blockers: Set[str]) -> Mark:
-    """What a box is, the most important first."""
+def marks_of(state: CellState) -> dict[str, Mark]:
+    """What each box on the pallet is, the most important first."""
+    blockers = blockers_of(state)
+    asked = {question.about for question in state.questions}
+    return {line.box: _mark(line, state.target, asked, blockers) for line in state.queue}
+
+
+def _mark(line: QueueLine, target: str | None, asked: Set[str], blockers: Set[str]) -> Mark:
+    if line.box in asked:
+        return Mark.ASKED
     if line.box == target:
         return Mark.TARGET
     if line.requested:

@@ -2,7 +2,7 @@
 
 from depal.server.cellstate import CellState, QueueLine
 from depal.server.screen.markup import Markup, joined, tag
-from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, blockers_of, mark_of
+from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, marks_of
 from depal.server.screen.said import Said
 from depal.server.screen.words import Words
 
@@ -13,7 +13,7 @@ def queue_table(state: CellState, words: Words, said: Said) -> Markup:
     """A table; the target comes first in the eye by shape and word."""
     if not state.queue:
         return tag("p", words("queue.empty"), cls="quiet")
-    blockers = blockers_of(state)
+    marks = marks_of(state)
     heads = joined(
         tag(
             "th",
@@ -24,9 +24,7 @@ def queue_table(state: CellState, words: Words, said: Said) -> Markup:
         )
         for column in COLUMNS
     )
-    rows = joined(
-        _row(line, mark_of(line, state.target, blockers), words, said) for line in state.queue
-    )
+    rows = joined(_row(line, marks[line.box], words, said) for line in state.queue)
     caption = tag("caption", words("queue.caption"), cls="unseen")
     return tag("table", caption, tag("thead", tag("tr", heads)), tag("tbody", rows), cls="queue")
 

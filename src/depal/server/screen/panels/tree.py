@@ -24,9 +24,7 @@ def _tree(tree: TaskTree, words: Words) -> Markup:
 
 def _node(node: TaskNode, words: Words) -> Markup:
     look = NODES[node.state]
-    style = (
-        f"background:{look.tint.fill};color:{look.tint.text};border-color:{look.tint.line}"
-    )
+    style = f"background:{look.tint.fill};color:{look.tint.text};border-color:{look.tint.line}"
     shape = "oval is-running" if node.state == "running" else "oval"
     oval = tag(
         "span",

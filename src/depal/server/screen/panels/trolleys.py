@@ -14,9 +14,7 @@ def trolleys(state: CellState, words: Words) -> Markup:
 def _tile(trolley: TrolleyState, words: Words) -> Markup:
     share = round(100 * min(max(trolley.fill, 0.0), 1.0))
     key, sign = _standing(trolley)
-    gauge = tag(
-        "span", tag("span", style=f"height:{share}%"), cls="gauge", aria_hidden="true"
-    )
+    gauge = tag("span", tag("span", style=f"height:{share}%"), cls="gauge", aria_hidden="true")
     fill = words("trolley.fill", boxes=trolley.boxes, share=share)
     return tag(
         "li",
