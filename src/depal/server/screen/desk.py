@@ -107,6 +107,10 @@ class Desk(Protocol):
         """Of the cell."""
         ...
 
+    def picture(self) -> bytes:
+        """The camera's last one; empty where there is none."""
+        ...
+
     def deliveries(self) -> Sequence[Waiting]:
         """Those that wait or are worked on, the next first."""
         ...

@@ -15,11 +15,13 @@ Content = str | float | None
 
 NOTHING: Final = Markup()
 
-ALONE = frozenset({"br", "img", "rect", "line", "circle", "path", "polygon", "polyline"})
+ALONE = frozenset(
+    {"br", "img", "input", "link", "meta", "rect", "line", "circle", "path", "polygon", "polyline"}
+)
 """Elements without content."""
 
 
-def tag(name: str, *content: Content, **attributes: Content) -> Markup:
+def tag(name: str, /, *content: Content, **attributes: Content) -> Markup:
     """One element.
 
     Args:

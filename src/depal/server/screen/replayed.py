@@ -80,6 +80,7 @@ class Replayed:
         self._recording, self._selections = recording, selections
         self._engine, self._at = Engine(recording.repository), 0
         self._labels: dict[int, str] = {}
+        self._roots: dict[int, str] = {}
         self.steps = tuple(
             number
             for number, event in enumerate(recording.events, start=1)
@@ -114,7 +115,9 @@ class Replayed:
         state = self._engine.state
         for event in events[self._at : number]:
             state.apply(event)
-            if isinstance(event, ev.Started):
+            if isinstance(event, ev.Allocated):
+                self._roots[event.tree] = f"{event.schema}({', '.join(event.args)})"
+            elif isinstance(event, ev.Started):
                 node = state.trees[event.tree].nodes[event.node]
                 self._labels[event.attempt] = node.node.label
         self._at = number
@@ -146,7 +149,7 @@ class Replayed:
                 return Happened(event.at, f"past.{outcome.value}", label, reason)
             case ev.Archived(tree=tree, accomplished=accomplished):
                 what = "past.accomplished" if accomplished else "past.withdrawn"
-                return Happened(event.at, what, f"{tree}")
+                return Happened(event.at, what, self._roots.get(tree, ""))
             case ev.ModeChanged(held=held, source=source):
                 return Happened(event.at, "past.held" if held else "past.going", source)
             case _:

@@ -28,7 +28,7 @@ LABEL = (
 LINKS = 7
 """The base and six more; after them comes the tool."""
 
-EYE, AIM = (-3.1, -2.2, 3.9), (0.75, -0.05, 0.45)
+EYE, AIM = (-2.3, -1.7, 4.5), (0.75, 0.0, 0.35)
 """Where one looks from, and at what [m]."""
 
 
@@ -138,7 +138,7 @@ class CellScene:
     def _capsule(self, capsule: Capsule) -> None:
         start, end, radius = capsule.start, capsule.end, capsule.radius
         for place in {start, end}:
-            self.element.sphere(radius, 20, 14).material(JOINT).move(*place)
+            self.element.sphere(radius, 20, 14).material(ARM).move(*place)
         length = math.dist(start, end)
         if length < radius / 10:
             return

@@ -7,6 +7,7 @@ from nicegui import Client, background_tasks, ui
 
 from depal.server.cellstate import CellState
 from depal.server.screen.desk import Desk
+from depal.server.screen.entrance import SIGN_OUT
 from depal.server.screen.hub import Hub
 from depal.server.screen.now import NowView
 from depal.server.screen.pane import html
@@ -120,5 +121,10 @@ class Window:
 
         return speak
 
-    def _leave(self) -> None:
-        ui.navigate.to("/sign-in")
+    @staticmethod
+    def _leave() -> None:
+        """The session ends, then the page does."""
+        ui.run_javascript(
+            f"fetch('{SIGN_OUT}', {{method: 'POST', headers: {{'Content-Type': 'application/json'}}, "
+            "body: '{}'}).finally(() => location.replace('/sign-in'))"
+        )

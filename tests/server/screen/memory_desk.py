@@ -1,4 +1,4 @@
-"""A desk over a cell alone, until the use cases are there: queue, keys and names in memory."""
+"""Desks over a cell alone: queue, people and names in memory, for the browser test."""
 
 import itertools
 from collections.abc import Callable, Sequence
@@ -16,7 +16,7 @@ from depal.server.roles import Principal, Role
 from depal.server.screen.desk import Person, Refused, Run, Token, Waiting
 
 
-class Interim:
+class Memory:
     """What all desks share."""
 
     def __init__(self, cell: Cell, records: Path | None = None) -> None:
@@ -24,19 +24,19 @@ class Interim:
         self.cell, self.records = cell, records
         self.queue: list[tuple[Waiting, Delivery]] = []
         self.numbers = itertools.count(1)
-        self.people = [Person("anna", Role.INTEGRATOR)]
+        self.people: list[Person] = []
+        self.passwords: dict[str, str] = {}
         self.tokens: list[Token] = []
         self.known: dict[Gtin, Product] = {}
         self.pictures: dict[str, bytes] = {}
 
 
-class InterimDesk:
+class MemoryDesk:
     """See `depal.server.screen.desk.Desk`."""
 
-    def __init__(self, shared: Interim, who: Principal | None = None) -> None:
+    def __init__(self, shared: Memory, who: Principal) -> None:
         """For one person."""
-        self._shared = shared
-        self.who = who or Principal("anna", Role.INTEGRATOR)
+        self._shared, self.who = shared, who
 
     @property
     def layout(self) -> CellLayout:
@@ -44,6 +44,9 @@ class InterimDesk:
 
     def state(self) -> CellState:
         return self._shared.cell.state()
+
+    def picture(self) -> bytes:
+        return self._shared.cell.picture()
 
     def deliveries(self) -> Sequence[Waiting]:
         return [waiting for waiting, _ in self._shared.queue if waiting.state != "cancelled"]
@@ -181,7 +184,10 @@ class InterimDesk:
     def add_person(self, name: str, role: Role, password: str) -> None:
         if len(password) < 8:
             raise Refused("a password has at least 8 letters")
+        if any(person.name == name for person in self._shared.people):
+            raise Refused(f"there is somebody called {name} already")
         self._shared.people.append(Person(name, role))
+        self._shared.passwords[name] = password
 
     def change_role(self, name: str, role: Role) -> None:
         self._shared.people = [
