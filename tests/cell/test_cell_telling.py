@@ -7,13 +7,13 @@ import pytest
 from cells_at_work import Cell, gtin, pile
 
 from depal.cell.departures import Departure, Departures, Fate
-from depal.cell.guards import KEPT, LOST, TOUCHED, Guards
+from depal.cell.guards import KEPT, TOUCHED, Guards
 from depal.cell.questions import Questions
 from depal.cell.reporting import ChoiceNote, Journalist, note_of
 from depal.domain import Approach, BoxId, Gtin, PlaceId, Request
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.runtime import Context
-from depal.ports import Question
+from depal.ports import LOST, STANDS, Question
 from depal.ports.fakes import FakeArm, FakeGripper, FakePerson, FakeSafety
 from depal.selection import BlockingGraph, Refused, ScoreRule, select
 
@@ -142,9 +142,13 @@ def test_a_module_may_leak_a_little(share: float) -> None:
 @pytest.mark.parametrize("share", [TOUCHED - 0.01, TOUCHED + 0.01])
 def test_a_box_stands_when_less_than_its_weight_hangs_on_the_arm(share: float) -> None:
     """And then the descent ends."""
-    arm = FakeArm((0.0,) * 6, lambda: 5.0 * share)
-    guard = Guards(arm, FakeGripper(), FakeSafety()).touches_down(5.0)
-    assert guard() == ("stands" if share < TOUCHED else None)
+    arm, gripper = FakeArm((0.0,) * 6, lambda: 5.0 * share), FakeGripper()
+
+    async def lower() -> str | None:
+        await gripper.suck((("front", 0),))
+        return Guards(arm, gripper, FakeSafety()).setting_down(5.0)()
+
+    assert run_simulated(lower()) == (STANDS if share < TOUCHED else None)
 
 
 def test_a_motion_is_asked_to_stop_by_the_executive() -> None:

@@ -22,6 +22,7 @@ from depal.logistics.store import (
     StockProjection,
     assign_places,
     by_storage,
+    newest,
 )
 from depal.ports import Movement, StoreSystem
 
@@ -191,7 +192,7 @@ def newer(path: Path) -> None:
     """A database of a version that does not exist yet."""
     Database(f"sqlite:///{path}").close()
     with closing(sqlite3.connect(path)) as connection:
-        connection.execute("UPDATE schema SET version = 2")
+        connection.execute("UPDATE alembic_version SET version_num = '9999'")
         connection.commit()
 
 
@@ -218,8 +219,8 @@ def nothing(path: Path) -> None:
         (
             newer,
             (
-                "was written by a newer depal, with version 2 of its tables; expected version 1; "
-                "update depal, or name another database"
+                "was written by a newer depal, with version 9999 of its tables; expected version "
+                f"{newest()} or an older one; update depal, or name another database"
             ),
         ),
         (
@@ -322,3 +323,50 @@ def test_the_storage_for_what_is_set_aside_can_be_left_out() -> None:
     names = ["shelf/level_1", "shelf_2/level_1", "trolley_1/level_1"]
     layout = {PlaceId(name): place(name, 0.0) for name in names}
     assert [each.id for each in by_storage(layout, without="shelf")] == names[1:]
+
+
+def older(path: Path) -> None:
+    """A database as depal wrote it before there were migrations."""
+    Database(f"sqlite:///{path}").close()
+    with closing(sqlite3.connect(path)) as connection:
+        names = [
+            name
+            for (name,) in connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'")
+        ]
+        kept = {"products", "places", "product_places", "deliveries", "delivery_lines"}
+        kept |= {"requests", "movements", "projections"}
+        connection.execute("PRAGMA foreign_keys = OFF")
+        for name in set(names) - kept:
+            connection.execute(f"DROP TABLE {name}")
+        connection.execute("CREATE TABLE schema (id INTEGER PRIMARY KEY, version INTEGER)")
+        connection.execute("INSERT INTO schema VALUES (1, 1)")
+        connection.commit()
+
+
+def test_an_older_database_is_brought_up_to_date_and_a_copy_kept(tmp_path: Path) -> None:
+    """What was in it stays; the tables are those that a new database has."""
+    path, fresh = tmp_path / "store.db", tmp_path / "fresh.db"
+    with LocalStore(Database(f"sqlite:///{path}")) as store:
+        store.note(movement(1))
+    older(path)
+    before = path.read_bytes()
+    with LocalStore(Database(f"sqlite:///{path}")) as store:
+        assert store.movements() == (movement(1),)
+    assert (tmp_path / "store.db.before-0001").read_bytes() == before
+    Database(f"sqlite:///{fresh}").close()
+    assert columns(path) == columns(fresh)
+
+
+def columns(path: Path) -> dict[str, list[tuple[str, str, int, int]]]:
+    """Name, type, whether it must be there, and its place in the key, by table."""
+    with closing(sqlite3.connect(path)) as connection:
+        names = connection.execute("SELECT name FROM sqlite_master WHERE type = 'table'").fetchall()
+        return {
+            name: sorted(
+                (column, kind.split("(")[0].replace("DOUBLE", "FLOAT"), needed, key)
+                for _, column, kind, needed, _, key in connection.execute(
+                    f"PRAGMA table_info({name})"
+                )
+            )
+            for (name,) in names
+        }

@@ -8,7 +8,8 @@ from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, Place
 from depal.geometry import Pose, Vector3
-from depal.motion.moves import Kind, Part
+from depal.motion.grasping import Holding
+from depal.motion.moves import OPEN, Kind, Part
 from depal.motion.planning.straight import straight_as_far
 from depal.ports import Guard, Trajectory
 
@@ -32,7 +33,7 @@ async def get_clear(work: Workplace, desk: Desk, guard: Guard | None = None) -> 
         Why it has stopped half-way, or None.
     """
     for shift in _ways_out(work, desk):
-        motion = _along(desk, shift)
+        motion = _along(work, desk, shift)
         if motion is not None:
             stopped = await work.ports.arm.follow(motion, guard)
             if stopped is not None:
@@ -40,12 +41,29 @@ async def get_clear(work: Workplace, desk: Desk, guard: Guard | None = None) -> 
     return None
 
 
-def _along(desk: Desk, shift: Vector3) -> Trajectory | None:
-    planner = desk.planner
+def _along(work: Workplace, desk: Desk, shift: Vector3) -> Trajectory | None:
+    """Straight, no farther than until nothing is near any more; as far as the arm reaches."""
+    planner, held = desk.planner, work.held
     path = straight_as_far(planner.mover.body.kinematics, planner.here, shift)
+    scene = desk.promises.scene(work.pile, without=None if held is None else held.box)
+    if held is None:
+        checker = planner.mover.checker(scene, OPEN, folded=work.ports.gripper.folded())
+    else:
+        checker = planner.mover.checker(scene, OPEN, held.grasp, held.size)
+    free = checker.first_free(path)
+    if len(work.pile) or _is_level(shift):  # above a pile that nobody has seen all the way counts
+        path = path if free is None else path[: free + 1]
     if len(path) < 2:  # noqa: PLR2004 - a path has two ends
         return None
-    return planner.timing.slowly(Part(Kind.STRAIGHT, path, touching=True))
+    parts = [Part(Kind.STRAIGHT, path, touching=True)]
+    if held is None:
+        return planner.timing.along(parts)
+    holding = Holding.of(held.grasp, held.mass, work.layout.tool, size=held.size)
+    return planner.timing.along(parts, holding) or planner.timing.slowly(parts[0])
+
+
+def _is_level(shift: Vector3) -> bool:
+    return abs(shift[2]) < EDGE
 
 
 def _ways_out(work: Workplace, desk: Desk) -> Iterator[Vector3]:

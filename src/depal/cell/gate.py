@@ -1,10 +1,10 @@
-"""The gate before the next box: closed, nothing further is taken off the pallet."""
+"""A gate in the way of work: closed, whoever comes waits."""
 
 import asyncio
 
 
 class Gate:
-    """Whoever is about to begin with a box waits here while it is closed."""
+    """Whoever is about to begin with something waits here while it is closed."""
 
     def __init__(self) -> None:
         """Open."""
@@ -14,11 +14,11 @@ class Gate:
 
     @property
     def closed(self) -> bool:
-        """Whether no further box is begun."""
+        """Whether nothing further is begun."""
         return not self._open.is_set()
 
     def close(self) -> None:
-        """No further box is begun."""
+        """Nothing further is begun."""
         self._open.clear()
 
     def open(self) -> None:

@@ -1,14 +1,42 @@
 """What is watched while the arm moves."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, field
 
 from depal.executive.runtime import Context
-from depal.ports import Arm, Gripper, Guard, Safety
-
-LOST = "the vacuum broke: the box is lost"
+from depal.ports import LOST, Arm, Gripper, Guard, Safety, Watch
 
 KEPT = 0.5
 """A module whose vacuum falls below this share of what it was has lost its hold."""
+
+TOUCHED = 0.6
+"""The share of a box's weight that still hangs on the arm when it counts as standing."""
+
+
+@dataclass(frozen=True, slots=True)
+class Watching:
+    """A guard of two parts: what the robot's own controller watches, and what only we know.
+
+    Attributes:
+        arm: whose flange is weighed.
+        gripper: whose vacuum counts.
+        watch: by the sensors.
+        more: further reasons to stop.
+    """
+
+    arm: Arm
+    gripper: Gripper
+    watch: Watch
+    more: tuple[Callable[[], str | None], ...] = field(default=())
+
+    def __call__(self) -> str | None:
+        """A reason to stop, or None."""
+        sensed = self.watch.reason(self.gripper.vacuum(), self.arm.load)
+        return sensed if sensed is not None else self.asked()
+
+    def asked(self) -> str | None:
+        """The reasons that no sensor knows."""
+        return next((reason for ask in self.more if (reason := ask()) is not None), None)
 
 
 class Guards:
@@ -24,28 +52,19 @@ class Guards:
         """The executive wants this motion to end."""
         return lambda: context.stop_reason
 
-    def holding(self, *more: Callable[[], str | None]) -> Guard:
-        """The vacuum breaks."""
+    def holding(self, *more: Callable[[], str | None], until: float | None = None) -> Guard:
+        """The vacuum breaks.
+
+        Args:
+            more: further reasons to stop.
+            until: below this load a box that is set down stands [kg].
+        """
         before = self._gripper.vacuum()
         if not any(before.values()):  # it broke while nobody watched: at rest, between motions
             return lambda: LOST
+        least = tuple((name, KEPT * value) for name, value in before.items() if value > 0.0)
+        return Watching(self._arm, self._gripper, Watch(least, until), more)
 
-        def guard() -> str | None:
-            now = self._gripper.vacuum()
-            if any(now[name] < KEPT * value for name, value in before.items() if value > 0.0):
-                return LOST
-            for other in more:
-                reason = other()
-                if reason is not None:
-                    return reason
-            return None
-
-        return guard
-
-    def touches_down(self, mass: float) -> Callable[[], str | None]:
-        """The box that is being set down no longer hangs on the arm."""
-        return lambda: "stands" if self._arm.load() < TOUCHED * mass else None
-
-
-TOUCHED = 0.6
-"""The share of a box's weight that still hangs on the arm when it counts as standing."""
+    def setting_down(self, mass: float) -> Guard:
+        """The vacuum breaks, or the box that is being set down no longer hangs on the arm."""
+        return self.holding(until=TOUCHED * mass)

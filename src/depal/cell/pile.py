@@ -99,7 +99,7 @@ class Pile:
             if view.obstacles is not None:
                 self.obstacles = view.obstacles
             return
-        named = [(box.id, _seen(box)) for box in found.values()]
+        named = [(box.id, seen_as(box)) for box in found.values()]
         self._memory = self._memory.told(named, view.taken)
         self._boxes = {
             box.name: _perceived(box, found.get(box.name, self._boxes.get(box.name)))
@@ -126,7 +126,7 @@ class Pile:
         self._taken.pop(box.id, None)
         self._left.pop(box.id, None)
         self._boxes[box.id] = box
-        self._memory = self._memory.back(box.id, _seen(box), 0.0)
+        self._memory = self._memory.back(box.id, seen_as(box), 0.0)
 
     def identify(self, box: BoxId, gtin: Gtin) -> None:
         """A box that was only detected has been read: from now on it is recognised."""
@@ -160,6 +160,12 @@ class Pile:
         if gtin is not None:
             self._read[box] = gtin
         self.forget(box, at)
+
+    def recall(self, boxes: Iterable[Perceived]) -> None:
+        """What was believed before a restart is believed until a look says more."""
+        self._boxes = {box.id: box for box in boxes}
+        named = [(box.id, seen_as(box)) for box in self._boxes.values()]
+        self._memory = self._memory.told(named, 0.0)
 
     @property
     def taken(self) -> Mapping[BoxId, float]:
@@ -197,7 +203,7 @@ class Pile:
         return Recognition(box.id, box.shape, gtin)
 
 
-def _seen(box: Perceived) -> SeenBox:
+def seen_as(box: Perceived) -> SeenBox:
     """A box of a sight that tells no errors: all looks are equally good."""
     gtin = box.gtin if isinstance(box, Recognition) else None
     return SeenBox(box.shape, 1.0, np.eye(6) * EQUAL**2, gtin=gtin)

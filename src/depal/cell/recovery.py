@@ -6,6 +6,7 @@ person decides. Nothing moves before a person has said start.
 """
 
 import asyncio
+from contextlib import suppress
 
 from depal.cell.answers import ASIDE, STORE
 from depal.cell.clearing import get_clear
@@ -17,6 +18,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.stock import movement_id
 from depal.cell.workplace import FIRST, Held, Workplace
 from depal.domain import BoxId
+from depal.errors import DeviceError
 from depal.executive.engine import Call
 from depal.ports import TAKEN, Movement, Question
 
@@ -53,6 +55,7 @@ class Recovery:
         """
         self._work, self._desk, self._hand = work, desk, hand
         self.found = Found.NOTHING
+        work.plans.close()
 
     def examine(self) -> Found:
         """Reads the sensors; nothing moves, and asking again does no harm."""
@@ -77,6 +80,7 @@ class Recovery:
         if self.found is Found.UNKNOWN and self._hand is not None:
             await self._ask(self._hand)
         await self._settle()
+        self._work.plans.open()
         self._work.runtime.start("person")
 
     async def _probed(self) -> None:
@@ -114,8 +118,11 @@ class Recovery:
                 await work.ports.gripper.release()
         else:
             await get_clear(work, self._desk)
+        with suppress(DeviceError):  # what was believed before stands until a picture comes
+            work.pile.see(await work.ports.sight.look())
         if hand is not None:
             await self._tell(hand)
+        await self._tell_what_has_ended()
         self._forget_the_rest(hand)
         self._withdraw_what_waits()
 
@@ -156,11 +163,29 @@ class Recovery:
         if aside:
             work.tell([(f"{box}.taken", False), (f"{box}.at", "aside"), (ARM_AT, None)], "restart")
             return
-        product = work.product_of(box)
-        gtin = product.gtin if product else None
-        await work.ports.store.moved(Movement(movement_id(box, place), box, gtin, place, work.now))
-        facts = [(f"{box}.taken", False), (f"{box}.stored", True), (ARM_AT, None)]
-        work.tell(facts, "restart")
+
+    async def _tell_what_has_ended(self) -> None:
+        """What the ledger knows to be over, and the executive or the store may not."""
+        work = self._work
+        facts = work.runtime.engine.state.facts
+        for departure in work.departures.sequence:
+            box, place = departure.box, departure.place
+            if departure.fate is Fate.STORED and place and not facts.get(f"{box}.stored"):
+                name = movement_id(box, place)
+                moved = Movement(name, box, departure.gtin, place, work.now)
+                await work.ports.store.moved(moved)
+                work.tell([(f"{box}.taken", False), (f"{box}.stored", True)], "restart")
+            elif departure.fate is Fate.SET_ASIDE and not facts.get(f"{box}.at"):
+                work.tell([(f"{box}.taken", False), (f"{box}.at", "aside")], "restart")
+            elif departure.fate in {Fate.BY_PERSON, Fate.LOST}:
+                self._withdraw(box)
+
+    def _withdraw(self, box: BoxId) -> None:
+        """Nobody works on a box any more that somebody has taken, or that fell."""
+        for number, tree in list(self._work.runtime.engine.state.trees.items()):
+            root = tree.root.node
+            if root.args[:1] == (box,) and root.schema.name in {STORE, ASIDE}:
+                self._work.runtime.withdraw(number, "the box has left the cell")
 
     def _forget_the_rest(self, hand: Hand | None) -> None:
         """The arm is nowhere, and no box but the one in the hand is in it."""

@@ -181,6 +181,7 @@ class Workplace:
         hand: the physical step that the box in the gripper is in.
         keep: writes what must not be forgotten; called before and after every such step.
         gate: closed while no further box is to be begun.
+        plans: closed after a restart until the arm stands where plans can begin.
     """
 
     layout: CellLayout
@@ -203,6 +204,7 @@ class Workplace:
     hand: Hand | None = None
     keep: Callable[[], None] = nothing_kept
     gate: Gate = field(default_factory=Gate)
+    plans: Gate = field(default_factory=Gate)
     _exchanges: dict[str, "Ending"] = field(default_factory=dict)
     _gone: dict[BoxId, asyncio.Event] = field(default_factory=dict)
     _runtime: Runtime | None = None

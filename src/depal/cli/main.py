@@ -20,6 +20,7 @@ from depal.cli.output import console
 from depal.cli.replay import replay
 from depal.cli.run import run
 from depal.cli.see import see
+from depal.cli.serve import backup, serve
 from depal.cli.study import study
 from depal.cli.tasks import tasks
 from depal.errors import DepalError, InputError, JournalError, SettingError, did_you_mean
@@ -42,6 +43,8 @@ app.command()(replay)
 app.command()(calibrate)
 app.command()(see)
 app.command()(learn)
+app.command()(serve)
+app.command()(backup)
 
 
 def main() -> None:

@@ -4,7 +4,8 @@ import asyncio
 import selectors
 import time
 from collections.abc import Coroutine
-from typing import Any, Protocol, TypeVar
+from dataclasses import dataclass
+from typing import Any, Protocol, Self, TypeVar
 
 T = TypeVar("T")
 
@@ -86,4 +87,66 @@ def run_simulated(work: Coroutine[Any, Any, T], start: float = 0.0) -> T:
         What the coroutine returns.
     """
     with asyncio.Runner(loop_factory=lambda: SimulatedLoop(start)) as runner:
+        return runner.run(work)
+
+
+@dataclass(frozen=True, slots=True)
+class Pace:
+    """How the time of an event loop follows the machine's monotonic clock.
+
+    Attributes:
+        rate: seconds of the loop per second of the machine.
+        start: the loop's time at the origin [s].
+        origin: of the monotonic clock [s], which all processes of a machine share.
+    """
+
+    rate: float = 1.0
+    start: float = 0.0
+    origin: float = 0.0
+
+    @classmethod
+    def from_now(cls, rate: float = 1.0, start: float = 0.0) -> Self:
+        """Begins now."""
+        return cls(rate, start, time.monotonic())
+
+    def now(self) -> float:
+        """The loop's time [s]."""
+        return self.start + (time.monotonic() - self.origin) * self.rate
+
+
+class _PacedSelector(selectors.DefaultSelector):
+    """A selector that waits by the machine's time for what is due by the loop's."""
+
+    rate = 1.0
+
+    def select(self, timeout: float | None = None) -> list[tuple[selectors.SelectorKey, int]]:
+        return super().select(None if timeout is None else timeout / self.rate)
+
+
+class PacedLoop(asyncio.SelectorEventLoop):
+    """An event loop whose time runs faster or slower than the machine's, and goes on elsewhere."""
+
+    def __init__(self, pace: Pace) -> None:
+        """At this pace."""
+        self._pace = pace
+        selector = _PacedSelector()
+        selector.rate = pace.rate
+        super().__init__(selector)
+
+    def time(self) -> float:
+        """The time [s]."""
+        return self._pace.now()
+
+
+def run_paced(work: Coroutine[Any, Any, T], pace: Pace) -> T:
+    """Runs a coroutine to its end in time at a pace.
+
+    Args:
+        work: everything that waits in it waits on the loop's time.
+        pace: of that time.
+
+    Returns:
+        What the coroutine returns.
+    """
+    with asyncio.Runner(loop_factory=lambda: PacedLoop(pace)) as runner:
         return runner.run(work)

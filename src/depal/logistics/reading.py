@@ -30,6 +30,19 @@ def read_deliveries(path: Path) -> tuple[Delivery, ...]:
         DeliveryError: the file cannot be used; with everything that is wrong with it.
     """
     text = read_text(path, DeliveryError, ENDINGS, LIMIT)
+    return deliveries_in(text, path)
+
+
+def deliveries_in(text: str, path: Path) -> tuple[Delivery, ...]:
+    """All deliveries of a text that came under a file's name.
+
+    Args:
+        text: a CSV note when the name ends in .csv, else JSON.
+        path: the name; nothing is read from it.
+
+    Raises:
+        DeliveryError: the text cannot be used; with everything that is wrong with it.
+    """
     if path.suffix.lower() == ".csv":
         return (delivery_of_csv(text, path.stem, str(path)),)
     return deliveries_of_json(text, str(path))

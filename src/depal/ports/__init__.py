@@ -2,6 +2,8 @@
 
 from depal.executive.clock import Clock
 from depal.ports.devices import (
+    LOST,
+    STANDS,
     Arm,
     BarcodeReader,
     Bays,
@@ -11,12 +13,15 @@ from depal.ports.devices import (
     Guard,
     Safety,
     SafetyState,
+    Watch,
 )
 from depal.ports.people import TAKEN, Movement, Person, Question, StoreSystem
 from depal.ports.sight import Sight, View
 from depal.ports.trajectory import Trajectory
 
 __all__ = [
+    "LOST",
+    "STANDS",
     "TAKEN",
     "Arm",
     "BarcodeReader",
@@ -35,4 +40,5 @@ __all__ = [
     "StoreSystem",
     "Trajectory",
     "View",
+    "Watch",
 ]

@@ -1,6 +1,6 @@
 """The devices of a cell as the controller sees them. Every wait is on the running loop's time."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -14,6 +14,35 @@ from depal.ports.trajectory import Trajectory
 
 Guard = Callable[[], str | None]
 """Asked in every control period of a motion: a reason to stop, or None."""
+
+
+LOST = "the vacuum broke: the box is lost"
+
+STANDS = "stands"
+
+
+@dataclass(frozen=True, slots=True)
+class Watch:
+    """What a robot's own controller watches in every control period of a motion.
+
+    Attributes:
+        least: a module whose vacuum falls below this has lost its hold [Pa].
+        load: below this mass on the flange a box that is set down stands [kg]; None for never.
+    """
+
+    least: tuple[tuple[str, float], ...] = ()
+    load: float | None = None
+
+    def reason(self, vacuum: Mapping[str, float], load: Callable[[], float]) -> str | None:
+        """A reason to stop, or None.
+
+        Args:
+            vacuum: what each module's sensor reads [Pa].
+            load: reads what hangs on the flange [kg].
+        """
+        if any(vacuum[name] < least for name, least in self.least):
+            return LOST
+        return STANDS if self.load is not None and load() < self.load else None
 
 
 class Arm(Protocol):

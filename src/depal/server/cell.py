@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from depal.domain import CellLayout, Delivery, Request
+from depal.errors import DepalError
 from depal.server.cellstate import CellState
 
 
@@ -38,7 +39,7 @@ class Order:
     requests: tuple[tuple[str, Request], ...] = ()
 
 
-class Refusal(Exception):  # noqa: N818 - no error of the cell: what was asked cannot be done now
+class Refusal(DepalError):  # noqa: N818 - it is an answer, and no fault
     """What was asked for cannot be done in this state; the text says why and what can."""
 
 

@@ -59,19 +59,23 @@ class SimulatedPerson:
 
     async def ask(self, question: Question) -> str:
         """Asks and waits for as long as it takes; returns one of the choices."""
-        self._world.advance(self._clock.now())
-        answer = self._policy(question) if self._policy is not None else self._truly(question)
+        answer = self.what_is_so(question) if self._policy is None else self._policy(question)
         self.asked.append((self._clock.now(), question, answer))
         await asyncio.sleep(self._mean * float(self._random.uniform(0.5, 1.5)))
+        await self.does(question, answer)
+        return answer
+
+    async def does(self, question: Question, answer: str) -> None:
+        """Does in the world what an answer promises."""
         self._world.advance(self._clock.now())
         if self._is_trolley(question.about) and answer == question.choices[0]:
             await self._exchange(question.about)
         else:
             self._pick_up(question, anywhere=answer == TAKEN)
-        return answer
 
-    def _truly(self, question: Question) -> str:
+    def what_is_so(self, question: Question) -> str:
         """What is asked, where it can be done; what is read, where that is a choice."""
+        self._world.advance(self._clock.now())
         first, last = question.choices[0], question.choices[-1]
         if question.id.startswith(PRODUCT):
             box = self._meant(question)

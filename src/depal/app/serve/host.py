@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from depal.app.serve.empty import empty_statement
 from depal.app.serve.modes import mode_of
-from depal.app.serve.outside import Built, Connect, Records, World
+from depal.app.serve.outside import Connect, Records, World
 from depal.app.serve.pictures import Picture
 from depal.app.serve.seeing import seen_with
 from depal.app.serve.session import Session, Stage, Surroundings
@@ -19,6 +19,7 @@ from depal.domain import CellLayout, Request
 from depal.errors import DepalError
 from depal.executive.clock import Clock, LoopClock
 from depal.ports import StoreSystem
+from depal.ports.wire.messages import Built
 from depal.server.cell import Order, Refusal, Settings, Watcher
 from depal.server.cellstate import Alarm, CellState
 
@@ -29,6 +30,8 @@ PATIENCE = 20.0
 
 FRAMES = 0.1
 """While the arm moves, a new state is told so often [s of wall time]."""
+
+Wrote = Callable[[int, int], None]
 
 RunLoop = Callable[[Callable[[], Coroutine[Any, Any, None]]], None]
 """Runs a coroutine function to its end on an event loop of the cell's time."""
@@ -47,6 +50,7 @@ class Means:
         run_loop: brings the cell's time.
         perception: "camera" or "truth".
         severity: how far simulated cameras and boxes are from ideal.
+        wrote: told the number of each last event of a run's journal.
     """
 
     layout: CellLayout
@@ -57,6 +61,7 @@ class Means:
     run_loop: RunLoop
     perception: str = "camera"
     severity: str = "normal"
+    wrote: Wrote = lambda _run, _sequence: None
 
 
 class Host:
@@ -262,6 +267,7 @@ class Host:
         )
         folder = means.folder / "runs" / str(order.run)
         session = Session(order, around, self._settings, folder, self._changed)
+        session.wired.notes.listen(heard=lambda last, _: means.wrote(order.run, last))
         self._session = session
         self._picture.watch(session, seen)
         self._running = asyncio.create_task(self._run(session))

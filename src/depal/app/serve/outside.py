@@ -1,26 +1,13 @@
 """What a served cell has outside itself, as its host sees it."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from typing import Protocol
 
 from depal.domain import BoxId, CellLayout, Delivery
 from depal.executive.clock import Clock
 from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Question, Safety, Sight
+from depal.ports.wire.messages import Built
 from depal.server.cellstate import QuestionState
-
-
-@dataclass(frozen=True, slots=True)
-class Built:
-    """What stands in the world now.
-
-    Attributes:
-        delivery: the name of the delivery on the pallet.
-        number: of the pallet, which is the number of its run.
-    """
-
-    delivery: str
-    number: int
 
 
 class Deeds(Protocol):
@@ -40,11 +27,11 @@ class World(Protocol):
     safety: Safety
     reader: BarcodeReader
     cameras: Sequence[Camera]
-    deeds: Deeds
+    truth_sight: Sight
 
     @property
-    def truth_sight(self) -> Sight:
-        """Perception that knows the truth; only a simulated world has it."""
+    def deeds(self) -> Deeds:
+        """What people do there."""
         ...
 
     @property

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 from depal.app.run.eyes import sight_over
 from depal.app.serve.outside import World
+from depal.cell.ledger import Page
+from depal.cell.pile import seen_as
 from depal.cell.sight import CameraSight
 from depal.domain import CellLayout, Delivery
 from depal.executive.clock import Clock
@@ -26,10 +28,11 @@ class Seen:
         """How many names it has given; 0 where names are not its own."""
         return self.sight.memory.named if isinstance(self.sight, CameraSight) else 0
 
-    def restart(self, named: int) -> None:
-        """Names that were given before a restart are not given again."""
+    def recall(self, page: Page) -> None:
+        """What was seen and named before a restart keeps its name where it still stands."""
         if isinstance(self.sight, CameraSight):
-            self.sight.memory = replace(self.sight.memory, named=named)
+            known = [(piled.box, seen_as(piled.perceived)) for piled in page.pile]
+            self.sight.memory = replace(self.sight.memory.told(known, 0.0), named=page.named)
 
     @property
     def frames(self) -> tuple[Frame, ...]:

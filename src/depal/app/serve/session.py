@@ -157,14 +157,14 @@ class Session:
         page = self._ledger.read()
         work, desk = self.wired.work, self.wired.desk
         restore(page, work, desk.promises)
-        self._around.seen.restart(page.named)
+        self._around.seen.recall(page)
         self._told = {departure.box for departure in page.departures}
         known = {wish.key for wish in work.wishes}
         for key, request in self.order.requests:
             if key not in known:
                 work.wishes.add(request, key)
-        self.wired.controller.runtime.restart()
         self._recovery = Recovery(work, desk, page.hand)
+        self.wired.controller.runtime.restart()
         self._recovery.examine()
         self.stage = Stage.RECOVERED
 

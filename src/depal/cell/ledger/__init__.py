@@ -2,7 +2,7 @@
 
 from depal.cell.hand import Hand, Phase
 from depal.cell.ledger.book import Ledger
-from depal.cell.ledger.page import KeptBox, LeftBox, Page, page_of, restore
+from depal.cell.ledger.page import KeptBox, LeftBox, Page, PiledBox, page_of, restore
 from depal.cell.ledger.reconciling import Found, Sensed, reconcile
 
 __all__ = [
@@ -13,6 +13,7 @@ __all__ = [
     "LeftBox",
     "Page",
     "Phase",
+    "PiledBox",
     "Sensed",
     "page_of",
     "reconcile",

@@ -7,7 +7,7 @@ from depal.cell.hand import Hand
 from depal.cell.planning.promises import Promises
 from depal.cell.wishes import Wish, Wishes
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Gtin, PlaceId
+from depal.domain import BoxId, Detection, Gtin, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox
 from depal.logistics.placing import Standing
 
@@ -43,6 +43,28 @@ class LeftBox:
 
 
 @dataclass(frozen=True, slots=True)
+class PiledBox:
+    """A box as it is believed to stand on the pallet.
+
+    Attributes:
+        box: its name.
+        solid: in the cell frame.
+        gtin: its product; None where it is only detected.
+    """
+
+    box: BoxId
+    solid: OrientedBox
+    gtin: Gtin | None
+
+    @property
+    def perceived(self) -> Perceived:
+        """The same as a look would tell it."""
+        if self.gtin is None:
+            return Detection(self.box, self.solid)
+        return Recognition(self.box, self.solid, self.gtin)
+
+
+@dataclass(frozen=True, slots=True)
 class Page:
     """What the cell must still know after a restart.
 
@@ -51,6 +73,7 @@ class Page:
         left: the boxes that are off the pallet, in the order in which they left.
         departures: what became of them.
         kept: what stands in the places.
+        pile: what is believed to stand on the pallet.
         wishes: the requests and what became of them, in the order in which they came.
         strangers: what the reader saw on boxes that are not on the note.
         aside: why boxes are set aside.
@@ -62,6 +85,7 @@ class Page:
     left: tuple[LeftBox, ...] = ()
     departures: tuple[Departure, ...] = ()
     kept: tuple[KeptBox, ...] = ()
+    pile: tuple[PiledBox, ...] = ()
     wishes: tuple[Wish, ...] = ()
     strangers: tuple[tuple[BoxId, str], ...] = ()
     aside: tuple[tuple[BoxId, str], ...] = ()
@@ -88,6 +112,10 @@ def page_of(work: Workplace, promises: Promises, named: int = 0) -> Page:
         left=tuple(LeftBox(box, at, gtins.get(box)) for box, at in work.departures.times.items()),
         departures=work.departures.sequence,
         kept=tuple(standing),
+        pile=tuple(
+            PiledBox(box.id, box.shape, box.gtin if isinstance(box, Recognition) else None)
+            for box in work.pile.boxes
+        ),
         wishes=tuple(work.wishes),
         strangers=tuple(work.strangers.items()),
         aside=tuple(work.aside_reasons.items()),
@@ -116,5 +144,6 @@ def restore(page: Page, work: Workplace, promises: Promises) -> None:
     for left in page.left:
         work.pile.away(left.box, left.at, left.gtin)
         work.gone(left.box).set()
+    work.pile.recall(box.perceived for box in page.pile)
     for kept in page.kept:
         promises.stands(kept.place, kept.standing, kept.solid)

@@ -1,11 +1,10 @@
 """What is done and said when a held box is lost."""
 
-from depal.cell.guards import LOST
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
-from depal.ports import Trajectory
+from depal.ports import LOST, Trajectory
 
 
 async def report_loss(

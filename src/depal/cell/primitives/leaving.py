@@ -1,7 +1,7 @@
 """The primitives of `leave`: carry the box to its place, set it down."""
 
 from depal.cell.departures import Fate
-from depal.cell.guards import LOST, Guards
+from depal.cell.guards import Guards
 from depal.cell.hand import Phase
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
@@ -13,7 +13,7 @@ from depal.domain import BoxId, PlaceId
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
-from depal.ports import Movement
+from depal.ports import LOST, Movement
 
 
 class Leaving:
@@ -83,7 +83,7 @@ class Leaving:
     async def _lower(self, plan: CarryPlan) -> str | None:
         ports, held = self._work.ports, self._work.held
         mass = held.mass if held is not None else 0.0
-        guard = self._guards.holding(self._guards.touches_down(mass))
+        guard = self._guards.setting_down(mass)
         self._work.steps(Phase.LOWERING, plan.place)
         if await ports.arm.follow(plan.descent, guard) == LOST:
             return LOST

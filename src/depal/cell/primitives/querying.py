@@ -19,6 +19,7 @@ class Querying:
     async def ask_target(self, context: Context) -> Report:
         """The first place of the store's list that has room; a trolley is exchanged for room."""
         box, work = BoxId(context.args["Box"]), self._work
+        await work.plans.passed()
         product = work.product_of(box)
         if product is None:
             return Report(outcome=Outcome.FAILED, reason="its product is not on the note")

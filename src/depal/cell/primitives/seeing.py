@@ -44,6 +44,7 @@ class Seeing:
         work = self._work
         view = await work.ports.sight.look()
         work.pile.see(view)
+        work.keep()
         for box in view.moved:
             work.left_behind.pop(box, None)  # what was not possible there may be here
         learned = self._learned(context)
@@ -72,6 +73,7 @@ class Seeing:
     async def select_box(self, context: Context) -> Report:
         """Algorithm 1; what cannot be grasped at all is left to a person."""
         work, pallet = self._work, context.args["Pallet"]
+        await work.plans.passed()
         choice = choose(work, self._desk)
         await self._desk.planner.charge(choice.plans)
         decision = choice.decision

@@ -1,7 +1,7 @@
 """The store's data: products, places, deliveries, requests, and what was put where."""
 
 from depal.logistics.store.assignment import assign_places, by_storage
-from depal.logistics.store.database import IN_MEMORY, VERSION, Database
+from depal.logistics.store.database import IN_MEMORY, Database, newest
 from depal.logistics.store.drawn import random_requests
 from depal.logistics.store.local import LocalStore
 from depal.logistics.store.request_book import KeptRequest, RequestState
@@ -9,7 +9,6 @@ from depal.logistics.store.stock import MovementsOf, StockProjection
 
 __all__ = [
     "IN_MEMORY",
-    "VERSION",
     "Database",
     "KeptRequest",
     "LocalStore",
@@ -18,5 +17,6 @@ __all__ = [
     "StockProjection",
     "assign_places",
     "by_storage",
+    "newest",
     "random_requests",
 ]

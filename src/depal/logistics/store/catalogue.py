@@ -88,6 +88,15 @@ def read_product(session: Session, gtin: Gtin) -> Product | None:
     return None if row is None else _product(row)
 
 
+def find_products(session: Session, search: str, after: str, limit: int) -> tuple[Product, ...]:
+    """Products whose name or number holds a text, by number, those after one."""
+    query = select(ProductRow).where(ProductRow.gtin > after).order_by(ProductRow.gtin)
+    if search:
+        name = ProductRow.name.icontains(search, autoescape=True)
+        query = query.where(name | ProductRow.gtin.contains(search, autoescape=True))
+    return tuple(_product(row) for row in session.scalars(query.limit(limit)))
+
+
 def keep_assignments(session: Session, places: Mapping[Gtin, Sequence[PlaceId]]) -> None:
     """Writes where products belong, best first; the former places of each are forgotten.
 

@@ -8,9 +8,11 @@ from typing import Self
 from depal.domain import BoxId, Delivery, Gtin, Place, PlaceId, Product, Request
 from depal.logistics.store.assignment import assign_places
 from depal.logistics.store.catalogue import (
+    find_products,
     keep_assignments,
     keep_delivery,
     keep_places,
+    keep_products,
     read_assignment,
     read_note,
     read_product,
@@ -98,6 +100,21 @@ class LocalStore:
         """A product; None where the store does not know it."""
         with self.database.session() as session:
             return read_product(session, gtin)
+
+    def products(self, search: str, after: str, limit: int) -> tuple[Product, ...]:
+        """Products whose name or number holds a text, by number, those after one."""
+        with self.database.session() as session:
+            return find_products(session, search, after, limit)
+
+    def keep_product(self, product: Product) -> None:
+        """Takes in a product; what was known of it before is replaced."""
+        with self.database.session() as session:
+            keep_products(session, [product])
+
+    def keep_places(self, places: Iterable[Place]) -> None:
+        """Takes in compartments."""
+        with self.database.session() as session:
+            keep_places(session, places)
 
     def accept(self, requests: Iterable[Request], source: str) -> tuple[str, ...]:
         """Accepts requests; the same ones from the same source a second time change nothing.

@@ -8,15 +8,6 @@ class Table(DeclarativeBase):
     """What all tables share."""
 
 
-class SchemaRow(Table):
-    """The version of these tables; one row."""
-
-    __tablename__ = "schema"
-
-    id: Mapped[int] = mapped_column(primary_key=True)
-    version: Mapped[int]
-
-
 class ProductRow(Table):
     """A product in its case: edges [m], mass [kg]."""
 

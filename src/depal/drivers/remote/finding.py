@@ -1,0 +1,102 @@
+"""The world that runs beside a data folder, or a new one."""
+
+import json
+import os
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from depal.drivers.remote.line import Line
+from depal.drivers.remote.world import RemoteWorld
+from depal.errors import DeviceError
+from depal.executive.clock import Pace
+
+CARD, LOG = "world.json", "world.log"
+
+PATIENCE = 60.0
+"""A world that does not listen by then has failed to start [s]."""
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """Who a world is.
+
+    Attributes:
+        pid: of its process.
+        socket: where it listens.
+        pace: of its time.
+    """
+
+    pid: int
+    socket: Path
+    pace: Pace
+
+    @property
+    def lives(self) -> bool:
+        """Whether that process is there."""
+        try:
+            os.kill(self.pid, 0)
+        except ProcessLookupError:
+            return False
+        except PermissionError:
+            return True
+        return True
+
+
+def card_of(folder: Path) -> Card | None:
+    """The world that runs beside a data folder; None where none does."""
+    try:
+        body = json.loads((folder / CARD).read_text(encoding="utf-8"))
+        pace = Pace(float(body["pace"]), float(body["start"]), float(body["origin"]))
+        card = Card(int(body["pid"]), Path(body["socket"]), pace)
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+    return card if card.lives else None
+
+
+def start_world(folder: Path, rate: float = 1.0, start: float = 0.0) -> Card:
+    """Starts a world in a session of its own, so that nothing that ends this process ends it.
+
+    Args:
+        folder: the data folder.
+        rate: seconds of the world per second.
+        start: its time at the beginning [s].
+
+    Raises:
+        DeviceError: it did not start.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / CARD).unlink(missing_ok=True)
+    command = [sys.executable, "-m", "depal.simulation.process", str(folder), str(rate), str(start)]
+    with (folder / LOG).open("ab") as log:
+        process = subprocess.Popen(  # noqa: S603 - our own module
+            command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+        )
+    until = time.monotonic() + PATIENCE
+    while time.monotonic() < until:
+        card = card_of(folder)
+        if card is not None:
+            return card
+        if process.poll() is not None:
+            break
+        time.sleep(0.02)
+    raise DeviceError(f"the simulated world did not start; its words are in {folder / LOG}")
+
+
+async def connect(folder: Path, cameras: int) -> RemoteWorld:
+    """The world that runs beside a data folder.
+
+    Args:
+        folder: the data folder.
+        cameras: how many the cell has.
+
+    Raises:
+        DeviceError: none runs there, or another controller commands it.
+    """
+    card = card_of(folder)
+    if card is None:
+        raise DeviceError(f"no world runs beside {folder}")
+    line, welcome = await Line.open(card.socket)
+    return RemoteWorld(line, welcome, cameras)

@@ -1,0 +1,1 @@
+"""The ports between two processes of one machine."""

@@ -1,0 +1,1 @@
+"""The routes of the API, each for one use case."""

@@ -1,0 +1,83 @@
+"""Guessing passwords is slow: after some failures an account and an address have to wait."""
+
+import threading
+from dataclasses import dataclass
+
+from depal.server.chance import Chance
+from depal.server.problems import TooMany
+
+FREE = {"account": 5, "address": 20}
+"""So many failures in a row cost nothing."""
+
+FIRST, LONGEST = 2.0, 900.0
+"""The first wait; each further failure doubles it, up to this [s]."""
+
+FORGOTTEN = 3600.0
+"""After so long without a failure all is forgotten [s]."""
+
+MANY = 10_000
+"""Of so many names at the most something is remembered."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Failures:
+    count: int
+    last: float
+
+
+class Limits:
+    """Failures by account and by address, in memory; used by several threads."""
+
+    def __init__(self, chance: Chance) -> None:
+        """Nobody has failed."""
+        self._chance = chance
+        self._failures: dict[tuple[str, str], _Failures] = {}
+        self._lock = threading.Lock()
+
+    def check(self, account: str, address: str) -> None:
+        """Whether a try is allowed now.
+
+        Raises:
+            TooMany: not yet; it says when.
+        """
+        now = self._chance.now()
+        with self._lock:
+            waits = [self._wait(key, now) for key in _keys(account, address)]
+        wait = max(waits)
+        if wait > 0.0:
+            raise TooMany(f"too many tries; try again in {wait:.0f} s", after=wait)
+
+    def failed(self, account: str, address: str) -> None:
+        """A try has failed."""
+        now = self._chance.now()
+        with self._lock:
+            if len(self._failures) > MANY:
+                self._forget(now)
+            for key in _keys(account, address):
+                before = self._failures.get(key)
+                fresh = before is not None and now - before.last < FORGOTTEN
+                count = before.count + 1 if before is not None and fresh else 1
+                self._failures[key] = _Failures(count, now)
+
+    def succeeded(self, account: str, address: str) -> None:
+        """The right password: the account's failures are forgotten, the address' are not."""
+        del address
+        with self._lock:
+            self._failures.pop(("account", account), None)
+
+    def _wait(self, key: tuple[str, str], now: float) -> float:
+        failures = self._failures.get(key)
+        if failures is None or failures.count < FREE[key[0]]:
+            return 0.0
+        wait = min(FIRST * 2.0 ** min(failures.count - FREE[key[0]], 30), LONGEST)
+        # A clock that was set back does not lock anybody out for longer than the wait.
+        return min(max(failures.last + wait - now, 0.0), wait)
+
+    def _forget(self, now: float) -> None:
+        kept = {k: f for k, f in self._failures.items() if now - f.last < FORGOTTEN}
+        newest = sorted(kept.items(), key=lambda item: item[1].last)[-MANY // 2 :]
+        self._failures = dict(newest)
+
+
+def _keys(account: str, address: str) -> tuple[tuple[str, str], tuple[str, str]]:
+    return ("account", account), ("address", address)

@@ -1,0 +1,265 @@
+"""Deliveries, products, their pictures, places and stock."""
+
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+from depal.domain import Delivery, Gtin, PlaceId, Product
+from depal.errors import DeliveryError, Problem
+from depal.logistics import deliveries_in
+from depal.logistics.gtin import gtin_fault
+from depal.logistics.store import by_storage
+from depal.server.problems import NotFound, TooLarge, Unusable
+from depal.server.records import PictureView, QueuedView
+from depal.server.roles import ALL, PEOPLE, SET_UP, WORKERS, Principal
+from depal.server.site import Site
+from depal.server.usecases.registry import use_case
+
+LARGEST = 5 * 2**20
+"""Of an uploaded delivery [byte]."""
+
+EDGES, HEAVIEST = (0.02, 2.0), 100.0
+"""Of a case: its edges [m] and its mass [kg]."""
+
+NAME = 200
+"""The longest name of a product [characters]."""
+
+
+@dataclass(frozen=True, slots=True)
+class StockLine:
+    """How many cases of a product went into a place.
+
+    Attributes:
+        place: the compartment.
+        gtin: the product; None where nobody could tell.
+        count: of cases.
+    """
+
+    place: str
+    gtin: str | None
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceView:
+    """A compartment.
+
+    Attributes:
+        id: its name.
+        storage: the trolley or shelf that it is part of.
+        width: of the opening [m].
+        height: of the opening [m].
+        depth: [m].
+    """
+
+    id: str
+    storage: str
+    width: float
+    height: float
+    depth: float
+
+
+@dataclass(frozen=True, slots=True)
+class ProductView:
+    """A product.
+
+    Attributes:
+        gtin: of its case.
+        name: what people call it.
+        size: length, width, height of a case standing upright [m].
+        mass: of a full case [kg].
+        places: where it belongs, best first.
+        pictures: of its faces.
+    """
+
+    gtin: str
+    name: str
+    size: tuple[float, float, float]
+    mass: float
+    places: tuple[str, ...]
+    pictures: tuple[PictureView, ...] = ()
+
+
+@use_case(PEOPLE)
+def list_deliveries(site: Site, who: Principal | None) -> tuple[QueuedView, ...]:
+    """The queue of deliveries, and those that are done."""
+    del who
+    return site.queue.list()
+
+
+@use_case(PEOPLE)
+def get_delivery(site: Site, who: Principal | None, name: str) -> QueuedView:
+    """A delivery."""
+    del who
+    return site.queue.get(name)[0]
+
+
+@use_case(WORKERS, command=True)
+def add_deliveries(
+    site: Site, who: Principal | None, text: str, file: str = "upload.json"
+) -> tuple[QueuedView, ...]:
+    """Check an uploaded file of deliveries and add them to the end of the queue."""
+    found = _read(site, text, file)
+    by = "nobody" if who is None else who.name
+    places = by_storage(site.cell.layout.places, without=site.cell.layout.aside)
+    site.store.seed_places(found, places)
+    return tuple(site.queue.add(delivery, by) for delivery in found)
+
+
+@use_case(WORKERS)
+def check_deliveries(
+    site: Site, who: Principal | None, text: str, file: str = "upload.json"
+) -> tuple[str, ...]:
+    """Check a file of deliveries without adding it; the names of its deliveries."""
+    del who
+    return tuple(delivery.id for delivery in _read(site, text, file))
+
+
+def _read(site: Site, text: str, file: str) -> tuple[Delivery, ...]:
+    if len(text.encode("utf-8", "surrogatepass")) > LARGEST:
+        raise TooLarge(f"the file is larger than {LARGEST} bytes")
+    name = Path(PurePosixPath(file.replace("\\", "/")).name[:100] or "upload.json")
+    found = deliveries_in(text, name)
+    problems = [
+        Problem(delivery.id, f"delivery {delivery.id!r} is in the queue already", "another name")
+        for delivery in found
+        if _known(site, delivery.id)
+    ]
+    if problems:
+        raise DeliveryError(str(name), problems)
+    return found
+
+
+def _known(site: Site, name: str) -> bool:
+    try:
+        site.queue.get(name)
+    except NotFound:
+        return False
+    return True
+
+
+@use_case(WORKERS, command=True)
+def cancel_delivery(
+    site: Site, who: Principal | None, name: str, version: int | None = None
+) -> QueuedView:
+    """Take a delivery out of the queue."""
+    del who
+    return site.queue.cancel(name, version)
+
+
+@use_case(WORKERS, command=True)
+def move_delivery(
+    site: Site, who: Principal | None, name: str, position: int, version: int | None = None
+) -> QueuedView:
+    """Move a delivery to another position in the queue."""
+    del who
+    return site.queue.move(name, position, version)
+
+
+@use_case(ALL)
+def list_products(
+    site: Site, who: Principal | None, search: str = "", after: str = "", limit: int = 100
+) -> tuple[ProductView, ...]:
+    """The products that the store knows, by name or number."""
+    del who
+    found = site.store.products(search, after, max(1, min(limit, 500)))
+    return tuple(_product(site, product, pictures=False) for product in found)
+
+
+@use_case(ALL)
+def get_product(site: Site, who: Principal | None, gtin: str) -> ProductView:
+    """A product with its places and pictures."""
+    del who
+    product = site.store.product(Gtin(gtin))
+    if product is None:
+        raise NotFound(f"there is no product {gtin!r}")
+    return _product(site, product, pictures=True)
+
+
+@use_case(SET_UP, command=True)
+def put_product(
+    site: Site,
+    who: Principal | None,
+    gtin: str,
+    name: str,
+    size: tuple[float, float, float],
+    mass: float,
+) -> ProductView:
+    """Add a product, or change what is known of it."""
+    del who
+    problems = []
+    fault = gtin_fault(gtin)
+    if fault is not None:
+        problems.append(Problem("gtin", *fault))
+    if not (1 <= len(name) <= NAME):
+        problems.append(Problem("name", f"has {len(name)} characters", f"1 to {NAME}"))
+    if not all(EDGES[0] <= edge <= EDGES[1] for edge in size):
+        expected = f"edges between {EDGES[0]} and {EDGES[1]} m"
+        problems.append(Problem("size", f"{size!r}", expected))
+    if not 0.0 < mass <= HEAVIEST:
+        expected = f"more than 0 and at most {HEAVIEST} kg"
+        problems.append(Problem("mass", f"{mass!r}", expected))
+    if problems:
+        raise Unusable("this product cannot be kept", problems)
+    product = Product(Gtin(gtin), name, size, mass)
+    site.store.keep_product(product)
+    return _product(site, product, pictures=True)
+
+
+@use_case(SET_UP, command=True)
+def assign_product(
+    site: Site, who: Principal | None, gtin: str, places: tuple[str, ...]
+) -> ProductView:
+    """Say where a product belongs, best first."""
+    product = site.store.product(Gtin(gtin))
+    if product is None:
+        raise NotFound(f"there is no product {gtin!r}")
+    site.store.keep_places(site.cell.layout.places.values())
+    site.store.assign({Gtin(gtin): [PlaceId(place) for place in places]})
+    return get_product(site, who, gtin)
+
+
+@use_case(SET_UP, command=True)
+def put_picture(
+    site: Site, who: Principal | None, gtin: str, face: str, body: bytes
+) -> PictureView:
+    """Upload a picture of a product's face, PNG or JPEG."""
+    return site.pictures.put(gtin, face, body, "nobody" if who is None else who.name)
+
+
+@use_case(PEOPLE)
+def get_picture(
+    site: Site, who: Principal | None, gtin: str, face: str
+) -> tuple[PictureView, bytes]:
+    """A picture of a product's face."""
+    del who
+    return site.pictures.get(gtin, face)
+
+
+@use_case(ALL)
+def list_places(site: Site, who: Principal | None) -> tuple[PlaceView, ...]:
+    """The compartments of the cell."""
+    del who
+    return tuple(
+        PlaceView(place.id, storage.id, *place.opening, place.depth)
+        for storage in site.cell.layout.storages
+        for place in storage.places
+    )
+
+
+@use_case(ALL)
+def see_stock(site: Site, who: Principal | None) -> tuple[StockLine, ...]:
+    """How many cases of which product went into each place."""
+    del who
+    stock = site.store.stock()
+    return tuple(StockLine(place, gtin, count) for (place, gtin), count in stock.items())
+
+
+def _product(site: Site, product: Product, *, pictures: bool) -> ProductView:
+    return ProductView(
+        product.gtin,
+        product.name,
+        product.size,
+        product.mass,
+        site.store.assignment(product.gtin),
+        site.pictures.list(product.gtin) if pictures else (),
+    )
