@@ -9,6 +9,7 @@ from io import BytesIO
 
 from PIL import Image, ImageDraw
 
+from depal.app.serve.outside import Records
 from depal.cell.files import shipped_cell
 from depal.domain import CellLayout, Gtin, Request, cell_from_pallet
 from depal.server.cell import Order, Refusal, Settings, Watcher
@@ -38,6 +39,7 @@ class ScriptedCell:
     """See `depal.server.cell.Cell`; its run asks one question and wants one trolley exchanged."""
 
     def __init__(self, step: float = STEP) -> None:
+        self.records: Records | None = None
         self._layout = shipped_cell("default")
         self._step = step
         self._lock = threading.RLock()
@@ -122,6 +124,8 @@ class ScriptedCell:
                 raise Refusal(told)
             self._closed[question] = f"{source} has answered this question: {choice}"
             self._answer = choice
+            if self.records is not None:
+                self.records.answered(question, choice, source, self._state.at)
             self._tell(questions=(), alarms=())
             self._wake.set()
 
@@ -175,6 +179,9 @@ class ScriptedCell:
                           Mode.HELD)  # fmt: skip
             if turn == 5:
                 self._exchange("trolley_2")
+        if self.records is not None:
+            result: dict[str, object] = {"stored": self._state.stored, "boxes": self._state.boxes}
+            self.records.run_ended(order.run, "done", self._state.at, result)
         self._tell(mode=Mode.COMPLETE, reason="The pallet is empty.", target=None, trees=())
 
     def _sort(self) -> None:
@@ -267,6 +274,8 @@ class ScriptedCell:
             key = self._aims.get(line.box)
             if key is not None:
                 self._requests.pop(key, None)
+                if self.records is not None:
+                    self.records.request_ended(key, served=True, at=self._state.at, reason="")
         self._tell(
             held=None,
             stored=self._state.stored + 1,
@@ -306,7 +315,9 @@ class ScriptedCell:
     def _ask(self, name: str, text: str, choices: tuple[str, ...], mode: Mode) -> None:
         self._answer = None
         self._wake.clear()
-        question = QuestionState(f"1/{name}", text, choices, name.split("/")[1], self._state.at)
+        question = QuestionState(f"{self._state.run}/{name}", text, choices, name.split("/")[1], self._state.at)
+        if self.records is not None and self._state.run is not None:
+            self.records.asked(self._state.run, question)
         alarm = Alarm(question.id, text, "Answer the question.", self._state.at)
         self._tell(mode=mode, reason=text, questions=(question,), alarms=(alarm,))
         self._wake.wait()
@@ -348,5 +359,3 @@ def _trees(box: str, phase: int) -> tuple[TaskTree, ...]:
     )
     return (TaskTree(1, 0.8, nodes),)
 
-
-GTINS = tuple(Gtin(f"800000000000{n}") for n in range(4))

@@ -6,8 +6,9 @@ from inspect import isawaitable
 from nicegui import ui
 
 from depal.server.cellstate import CellState
+from depal.server.records import QueuedView
 from depal.server.roles import WORKERS
-from depal.server.screen.desk import Desk, Waiting
+from depal.server.screen.desk import Desk
 from depal.server.screen.files import ACCEPT, choose, problems
 from depal.server.screen.markup import Markup, icon, tag
 from depal.server.screen.pane import html, put
@@ -52,9 +53,9 @@ class Card:
             self._acts = ui.element("div").classes("acts")
             self._problems = html().classes("all")
 
-    def show(self, state: CellState, waiting: Sequence[Waiting]) -> None:
+    def show(self, state: CellState, waiting: Sequence[QueuedView]) -> None:
         """As the state is."""
-        names = [each.name for each in waiting if each.state == "queued"]
+        names = [each.id for each in waiting if each.state == "queued"]
         todo = todo_of(state, names, self._words, self._said)
         if todo == self._shown:
             return
@@ -65,7 +66,7 @@ class Card:
         if before is None or before.acts != todo.acts:
             self._show_acts(todo.acts, waiting)
 
-    def _show_acts(self, acts: Sequence[Act], waiting: Sequence[Waiting]) -> None:
+    def _show_acts(self, acts: Sequence[Act], waiting: Sequence[QueuedView]) -> None:
         self._acts.clear()
         if not self._may:
             return
@@ -79,7 +80,7 @@ class Card:
                     button.props(f"icon={ICONS[act.verb]}")
                 button.mark(act.verb.value)
 
-    def _bind(self, button: ui.button, act: Act, waiting: Sequence[Waiting]) -> None:
+    def _bind(self, button: ui.button, act: Act, waiting: Sequence[QueuedView]) -> None:
         if act.verb is Verb.BRING:
             choose(button, ACCEPT, self._words("file.too_large"), self._bring)
         else:
@@ -96,8 +97,8 @@ class Card:
         if isawaitable(found):
             await found
 
-    def _doing(self, act: Act, waiting: Sequence[Waiting]) -> Callable[[], object]:
-        delivery = next((each.id for each in waiting if each.name == act.about), None)
+    def _doing(self, act: Act, waiting: Sequence[QueuedView]) -> Callable[[], object]:
+        delivery = next((each.id for each in waiting if each.id == act.about), None)
 
         async def do() -> None:
             desk, words = self._desk, self._words

@@ -5,8 +5,9 @@ import time
 from nicegui import ui
 
 from depal.server.cellstate import CellState
+from depal.server.records import QueuedView
 from depal.server.screen.card import Card
-from depal.server.screen.desk import Desk, Waiting, asked
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.pane import Pane, html
 from depal.server.screen.panels.alarms import alarms
 from depal.server.screen.panels.queue import queue_table
@@ -34,7 +35,7 @@ class NowView:
             guard: against doing something twice.
         """
         self._desk = desk
-        self._waiting: tuple[Waiting, ...] = ()
+        self._waiting: tuple[QueuedView, ...] = ()
         self._state: CellState | None = None
         self._run: tuple[object, ...] = ()
         self._summary = Pane(lambda state: summary(state, words), "summary-line")

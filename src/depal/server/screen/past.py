@@ -7,8 +7,10 @@ from nicegui import ui
 
 from depal.errors import DepalError
 from depal.server.cellstate import CellState
-from depal.server.screen.desk import Desk, Refused, Run, asked
+from depal.server.records import RunView
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import Markup, joined, tag
+from depal.server.screen.moments import minutes_of, moment_of
 from depal.server.screen.pane import html, put
 from depal.server.screen.panels.queue import queue_table
 from depal.server.screen.panels.tree import trees
@@ -71,7 +73,7 @@ class PastView:
         if runs and self._replayed is None:
             await self._choose(runs[0])
 
-    def _button(self, run: Run) -> None:
+    def _button(self, run: RunView) -> None:
         text = self._words("past.run", number=run.number, delivery=run.delivery)
         button = ui.button(color=None, on_click=lambda: self._choose(run)).props("no-caps flat")
         button.classes("run")
@@ -79,11 +81,11 @@ class PastView:
             html(_run(run, text, self._words))
         self._buttons[run.number] = button
 
-    async def _choose(self, run: Run) -> None:
+    async def _choose(self, run: RunView) -> None:
         try:
             folder = await asked(self._desk.record, run.number)
             self._replayed = await asked(Replayed.read, folder)
-        except (Refused, DepalError) as error:
+        except DepalError as error:
             refused(str(error))
             return
         for number, button in self._buttons.items():
@@ -139,12 +141,11 @@ class PastView:
         put(self._selection, queue_table(state, words, said))
 
 
-def _run(run: Run, text: str, words: Words) -> Markup:
-    told = [words(f"past.state_{run.state}")]
-    if run.stored is not None and run.boxes:
-        told.append(words("summary.stored", stored=run.stored, boxes=run.boxes))
-    if run.began:
-        told.append(run.began)
+def _run(run: RunView, text: str, words: Words) -> Markup:
+    told = [words(f"past.state_{run.state}"), moment_of(run.began)]
+    stored, boxes = run.result.get("stored"), run.result.get("boxes")
+    if isinstance(stored, int) and isinstance(boxes, int):
+        told.append(words("summary.stored", stored=stored, boxes=boxes))
     return tag("span", tag("strong", text), tag("br"), tag("small", " · ".join(told)))
 
 
@@ -159,7 +160,7 @@ def _items(moment: Moment, words: Words, said: Said) -> Markup:
     parts: Sequence[Markup] = [
         tag(
             "li",
-            tag("time", clock(event.at)),
+            tag("time", minutes_of(event.at)),
             words(event.what, label=event.label),
             f": {said(event.reason)}" if event.reason else None,
             cls="is-last" if place == 0 else None,
@@ -167,9 +168,3 @@ def _items(moment: Moment, words: Words, said: Said) -> Markup:
         for place, event in enumerate(moment.last)
     ]
     return joined(parts)
-
-
-def clock(seconds: float) -> str:
-    """Minutes and seconds of a run."""
-    whole = int(seconds)
-    return f"{whole // 60:d}:{whole % 60:02d}"

@@ -4,8 +4,12 @@ from collections.abc import Callable
 
 from nicegui import ui
 
-from depal.server.screen.desk import Refused, asked
+from depal.errors import DepalError, InputError
+from depal.server.problems import Answer, SignInNeeded
+from depal.server.screen.desk import asked
 from depal.server.screen.said import Said
+
+ENTRANCE = "/sign-in"
 
 
 def told(message: str) -> None:
@@ -54,12 +58,22 @@ class Guard:
         self._busy, self.problems = True, ()
         try:
             await asked(command, *arguments)
-        except Refused as refusal:
-            self.problems = refusal.problems
-            refused(self._said(str(refusal).splitlines()[0]))
+        except SignInNeeded:
+            ui.navigate.to(ENTRANCE)
+            return False
+        except DepalError as error:
+            self._refuse(error)
             return False
         finally:
             self._busy = False
         if message:
             told(message)
         return True
+
+    def _refuse(self, error: DepalError) -> None:
+        found = error.problems if isinstance(error, (Answer, InputError)) else ()
+        self.problems = tuple(str(problem) for problem in found)
+        text = str(error).splitlines()[0]
+        if len(self.problems) == 1 and isinstance(error, Answer):
+            text = self.problems[0]
+        refused(self._said(text))

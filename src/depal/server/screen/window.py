@@ -1,12 +1,11 @@
 """One browser window: the rail, the three views, and the news that it is shown."""
 
-import asyncio
 from collections.abc import Callable
 
 from nicegui import Client, background_tasks, ui
 
 from depal.server.cellstate import CellState
-from depal.server.screen.desk import Desk
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.entrance import SIGN_OUT
 from depal.server.screen.hub import Hub
 from depal.server.screen.now import NowView
@@ -14,8 +13,11 @@ from depal.server.screen.pane import html
 from depal.server.screen.past import PastView
 from depal.server.screen.said import said_in
 from depal.server.screen.setup import SetupView
-from depal.server.screen.toast import Guard
+from depal.server.screen.toast import ENTRANCE, Guard
 from depal.server.screen.words import CATALOGUES, NAMES, words_of
+
+CHECK = 10.0
+"""So often a window asks whether its session is still good [s]."""
 
 VIEWS = {"now": "dashboard", "past": "history", "setup": "tune"}
 """The views with their pictures."""
@@ -78,12 +80,19 @@ class Window:
             await self._now.settle()
         viewer = self._hub.add(lambda state: self._show(client, state))
         task = background_tasks.create(viewer.run(), name="viewer")
+        with client:
+            ui.timer(CHECK, lambda: self._still())
 
         def gone() -> None:
             task.cancel()
             self._hub.remove(viewer)
 
         client.on_delete(gone)
+
+    async def _still(self) -> None:
+        """Whoever is signed in no more sees no more."""
+        if await asked(self._desk.me) is None:
+            ui.navigate.to(ENTRANCE)
 
     async def _show(self, client: Client, state: CellState) -> None:
         with client:

@@ -1,10 +1,10 @@
 """Requests: those that wait, with an estimate; more, other, fewer of them."""
 
 from collections.abc import Sequence
+from uuid import uuid4
 
 from nicegui import ui
 
-from depal.domain import Product
 from depal.server.cellstate import CellState, RequestState
 from depal.server.roles import WORKERS
 from depal.server.screen.desk import Desk, asked
@@ -12,6 +12,7 @@ from depal.server.screen.markup import Markup, tag
 from depal.server.screen.pane import html, put
 from depal.server.screen.toast import Guard, refused
 from depal.server.screen.words import Words
+from depal.server.usecases.deliveries import ProductView
 
 LEVELS = {"soon": 0.3, "next": 0.6, "now": 0.9}
 """What a person says, and the p of the paper that it means."""
@@ -69,7 +70,7 @@ class Row:
         levels = list(LEVELS)
         level = levels[(levels.index(level_of(request.priority)) + 1) % len(levels)]
         done = self._words("done.wish_changed", level=self._words(f"wish.{level}"))
-        await self._guard.do(done, self._desk.change_request, self._key, LEVELS[level], None)
+        await self._guard.do(done, self._desk.change_request, self._key, LEVELS[level])
 
     async def _cancel(self) -> None:
         done = self._words("done.wish_cancelled")
@@ -107,7 +108,7 @@ class Wishes:
             self._list = ui.element("ul")
         self._form = ui.dialog()
 
-    def name_products(self, products: Sequence[Product]) -> None:
+    def name_products(self, products: Sequence[ProductView]) -> None:
         """What products are called."""
         self._names = {product.gtin: product.name for product in products}
 
@@ -137,6 +138,7 @@ class Wishes:
         words = self._words
         self.name_products(await asked(self._desk.products))
         self._form.clear()
+        repeat = uuid4().hex
         with self._form, ui.card().classes("form").props("role=dialog"):
             html(words("wish.add_title"), "h3")
             options = {f"p {gtin}": name for gtin, name in self._names.items()}
@@ -153,20 +155,23 @@ class Wishes:
                 cancel.props("no-caps unelevated").classes("act")
 
                 async def add() -> None:
-                    await self._add(what.value, LEVELS[level.value or "next"], due.value)
+                    wanted = (what.value, LEVELS[level.value or "next"], due.value)
+                    await self._add(*wanted, repeat)
 
                 button = ui.button(words("wish.add"), icon="add", color=None, on_click=add)
                 button.props("no-caps unelevated").classes("act is-main").mark("send request")
         self._form.open()
 
-    async def _add(self, what: str | None, priority: float, minutes: float | None) -> None:
+    async def _add(
+        self, what: str | None, priority: float, minutes: float | None, repeat: str
+    ) -> None:
         if not what:
             refused(self._words("wish.choose"))
             return
         kind, _, name = what.partition(" ")
         gtin, box = (name, None) if kind == "p" else (None, name)
         done = await self._guard.do(
-            self._words("done.wish"), self._desk.add_request, gtin, box, priority, minutes
+            self._words("done.wish"), self._desk.add_request, gtin, box, priority, minutes, repeat
         )
         if done:
             self._form.close()

@@ -4,7 +4,8 @@ from collections.abc import Sequence
 
 from nicegui import ui
 
-from depal.server.screen.desk import Desk, Waiting, asked
+from depal.server.records import QueuedView
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.files import ACCEPT, choose, problems
 from depal.server.screen.markup import tag
 from depal.server.screen.pane import html, put
@@ -38,7 +39,7 @@ class DeliveriesPart:
         put(self._problems, problems(self._guard.problems, self._words))
         await self.open()
 
-    def _show(self, waiting: Sequence[Waiting]) -> None:
+    def _show(self, waiting: Sequence[QueuedView]) -> None:
         self._list.clear()
         with self._list:
             if not waiting:
@@ -47,37 +48,45 @@ class DeliveriesPart:
             for each in waiting:
                 self._line(each, each in queued[1:], each in queued[:-1])
 
-    def _line(self, each: Waiting, earlier: bool, later: bool) -> None:  # noqa: FBT001
+    def _line(self, each: QueuedView, earlier: bool, later: bool) -> None:  # noqa: FBT001
         words = self._words
         state = words(f"delivery.{each.state}")
         told = words("delivery.about", boxes=each.boxes, by=each.by, state=state)
         with ui.element("li").classes("line"):
-            html(tag("div", tag("strong", each.name), tag("small", told))).classes("told")
+            html(tag("div", tag("strong", each.id), tag("small", told))).classes("told")
             if each.state != "queued":
                 return
-            self._small("arrow_upward", words("delivery.up", name=each.name), each, -1, earlier)
-            self._small("arrow_downward", words("delivery.down", name=each.name), each, 1, later)
+            self._small(
+                "arrow_upward", words("delivery.up", name=each.id), each, each.position - 1, earlier
+            )
+            self._small(
+                "arrow_downward",
+                words("delivery.down", name=each.id),
+                each,
+                each.position + 1,
+                later,
+            )
             drop = ui.button(icon="close", color=None, on_click=lambda: self._cancel(each))
-            drop.props["aria-label"] = words("delivery.cancel", name=each.name)
+            drop.props["aria-label"] = words("delivery.cancel", name=each.id)
             drop.props("flat").classes("small")
             start = ui.button(words("act.start"), icon="play_arrow", color=None)
             start.on_click(lambda: self._start(each))
             start.props("no-caps unelevated").classes("act")
 
-    def _small(self, icon: str, label: str, each: Waiting, steps: int, able: bool) -> None:  # noqa: FBT001
-        button = ui.button(icon=icon, color=None, on_click=lambda: self._move(each, steps))
+    def _small(self, icon: str, label: str, each: QueuedView, position: int, able: bool) -> None:  # noqa: FBT001
+        button = ui.button(icon=icon, color=None, on_click=lambda: self._move(each, position))
         button.props["aria-label"] = label
         button.props("flat").classes("small").set_enabled(able)
 
-    async def _move(self, each: Waiting, steps: int) -> None:
-        await self._guard.do("", self._desk.move_delivery, each.id, steps)
+    async def _move(self, each: QueuedView, position: int) -> None:
+        await self._guard.do("", self._desk.move_delivery, each.id, position, each.version)
         await self.open()
 
-    async def _cancel(self, each: Waiting) -> None:
-        done = self._words("done.delivery_cancelled", name=each.name)
-        await self._guard.do(done, self._desk.cancel_delivery, each.id)
+    async def _cancel(self, each: QueuedView) -> None:
+        done = self._words("done.delivery_cancelled", name=each.id)
+        await self._guard.do(done, self._desk.cancel_delivery, each.id, each.version)
         await self.open()
 
-    async def _start(self, each: Waiting) -> None:
+    async def _start(self, each: QueuedView) -> None:
         await self._guard.do(self._words("done.start"), self._desk.start, each.id)
         await self.open()

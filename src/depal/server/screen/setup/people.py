@@ -2,8 +2,9 @@
 
 from nicegui import ui
 
+from depal.server.people import PersonView
 from depal.server.roles import PEOPLE, Role
-from depal.server.screen.desk import Desk, Person, asked
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import tag
 from depal.server.screen.pane import html, put
 from depal.server.screen.toast import Guard
@@ -36,7 +37,7 @@ class PeoplePart:
             for person in people:
                 self._line(person)
 
-    def _line(self, person: Person) -> None:
+    def _line(self, person: PersonView) -> None:
         words, name = self._words, person.name
         me = words("person.you") if name == self._desk.who.name else None
         with ui.element("li").classes("line"):

@@ -9,6 +9,7 @@ from depal.server.screen.markup import tag
 from depal.server.screen.pane import html, put
 from depal.server.screen.toast import Guard
 from depal.server.screen.words import Words
+from depal.server.usecases.deliveries import ProductView
 
 ADDRESS = "/screen/product"
 """Where a product's picture is."""
@@ -23,7 +24,7 @@ class ProductsPart:
     def __init__(self, desk: Desk, words: Words, guard: Guard) -> None:
         """Empty until it is opened."""
         self._desk, self._words, self._guard = desk, words, guard
-        self._products: list[Product] = []
+        self._products: list[ProductView] = []
         self._changes = 0
         with ui.element("section").classes("card"):
             html(words("setup.products"), "h2").classes("h3")
@@ -47,7 +48,7 @@ class ProductsPart:
             for product in found[:SHOWN]:
                 self._line(product)
 
-    def _line(self, product: Product) -> None:
+    def _line(self, product: ProductView) -> None:
         words = self._words
         size = " × ".join(f"{100 * edge:.1f}" for edge in product.size)
         told = words("product.about", gtin=product.gtin, size=size, mass=f"{product.mass:.2f}")
@@ -72,7 +73,7 @@ class ProductsPart:
 
             choose(button, "image/png,image/jpeg", words("file.too_large"), bring)
 
-    def _open(self, product: Product) -> None:
+    def _open(self, product: ProductView) -> None:
         words = self._words
         self._form.clear()
         with self._form, ui.card().classes("form"):

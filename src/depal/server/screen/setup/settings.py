@@ -8,7 +8,7 @@ from depal.server.screen.pane import html, put
 from depal.server.screen.toast import Guard
 from depal.server.screen.words import Words
 
-SLOWEST = 10
+SLOWEST = 5
 """Of full speed [%]."""
 
 
@@ -18,7 +18,7 @@ class SettingsPart:
     def __init__(self, desk: Desk, words: Words, guard: Guard) -> None:
         """Empty until it is opened."""
         self._desk, self._words, self._guard = desk, words, guard
-        self._kept = Settings()
+        self._kept, self._version = Settings(), 0
         with ui.element("section").classes("card stack"):
             html(words("setup.settings"), "h2").classes("h3")
             self._w_told = html("", "p")
@@ -41,7 +41,7 @@ class SettingsPart:
 
     async def open(self) -> None:
         """As it is now."""
-        self._kept = await asked(self._desk.settings)
+        self._kept, self._version = await asked(self._desk.settings)
         self._put_back()
 
     def _wanted(self) -> Settings:
@@ -67,5 +67,6 @@ class SettingsPart:
         self._keep.set_enabled(changed)
 
     async def _put(self) -> None:
-        if await self._guard.do(self._words("done.kept"), self._desk.put_settings, self._wanted()):
-            await self.open()
+        given = (self._wanted(), self._version)
+        await self._guard.do(self._words("done.kept"), self._desk.put_settings, *given)
+        await self.open()

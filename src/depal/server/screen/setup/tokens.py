@@ -2,8 +2,10 @@
 
 from nicegui import ui
 
-from depal.server.screen.desk import Desk, Token, asked
+from depal.server.people import TokenView
+from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import tag
+from depal.server.screen.moments import day_of
 from depal.server.screen.pane import html
 from depal.server.screen.toast import Guard
 from depal.server.screen.words import Words
@@ -40,9 +42,9 @@ class TokensPart:
             for token in tokens:
                 self._line(token)
 
-    def _line(self, token: Token) -> None:
+    def _line(self, token: TokenView) -> None:
         words = self._words
-        told = words("token.expires", when=token.expires)
+        told = words("token.expires", when=day_of(token.expires))
         with ui.element("li").classes("line"):
             html(tag("div", tag("strong", token.name), tag("small", told))).classes("told")
             revoke = ui.button(words("token.revoke"), color=None)
@@ -72,7 +74,7 @@ class TokensPart:
             close.props("no-caps unelevated").classes("act is-main")
         self._form.open()
 
-    async def _revoke(self, token: Token) -> None:
+    async def _revoke(self, token: TokenView) -> None:
         done = self._words("done.revoked", name=token.name)
         await self._guard.do(done, self._desk.revoke_token, token.id)
         await self.open()

@@ -25,10 +25,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "cell.aside": "Boxes set aside go to",
         "cell.cameras": "Cameras",
         "cell.floor": "Fenced floor",
-        "cell.how": (
-            "The cell is described by a file. Change it there; `depal cell check` looks it "
-            "over."
-        ),
+        "cell.how": "The cell is described by a file. Change it there; `depal cell check` looks it over.",
         "cell.levels": "Compartments",
         "cell.name": "Name",
         "cell.pallet": "Pallet",
@@ -72,7 +69,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "file.too_large": "This file is larger than 5 MB.",
         "first.do": "Create the account",
         "first.how": "The first account may set up everything. Others are added later.",
-        "first.password": "At least 8 letters or digits.",
+        "first.password": "At least 10 letters or digits.",
         "first.title": "Your account",
         "legend.asked": "a person is asked about it",
         "legend.blocker": "must go before a requested box",
@@ -113,6 +110,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "past.started": "{label} starts",
         "past.state_aborted": "broken off",
         "past.state_done": "done",
+        "past.state_failed": "could not begin",
         "past.state_running": "running",
         "past.tasks": "Tasks",
         "past.timeout": "{label}: took too long",
@@ -170,9 +168,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "settings.access": "free requested boxes with the fewest moves",
         "settings.paper": "as in the paper: best score first",
         "settings.policy": "Which box next",
-        "settings.preview": (
-            "Not kept yet. It holds from the next selection and the next motion on."
-        ),
+        "settings.preview": "Not kept yet. It holds from the next selection and the next motion on.",
         "settings.same": "This is how the cell works now.",
         "settings.speed": "Speed of the arm",
         "settings.speed_is": "Speed of the arm: {speed} % of full speed",
@@ -193,10 +189,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "summary.rate": "{rate} boxes/h",
         "summary.stored": "{stored} of {boxes} stored",
         "todo.aborted": "Safety stop: go to the cell",
-        "todo.aborted_how": (
-            "Make sure that nobody is inside and release the stop at the cell's own panel. "
-            "It cannot be released from here."
-        ),
+        "todo.aborted_how": "Make sure that nobody is inside and release the stop at the cell's own panel. It cannot be released from here.",
         "todo.complete": "Take the pallet away",
         "todo.complete_how": "The pallet is empty: {stored} boxes stored, {aside} set aside.",
         "todo.complete_next": "Put the next pallet in, then press Start",
@@ -219,10 +212,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "token.add": "Make a token",
         "token.days": "Good for days",
         "token.expires": "good until {when}",
-        "token.how": (
-            "A store's own system signs in with a token. It may send requests and read "
-            "events."
-        ),
+        "token.how": "A store's own system signs in with a token. It may send requests and read events.",
         "token.kept": "I have kept it",
         "token.name": "What it is for",
         "token.none": "No system has a token.",

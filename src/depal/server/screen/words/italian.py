@@ -25,9 +25,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "cell.aside": "Le scatole messe da parte vanno in",
         "cell.cameras": "Telecamere",
         "cell.floor": "Area recintata",
-        "cell.how": (
-            "La cella è descritta da un file. Si cambia lì; `depal cell check` lo controlla."
-        ),
+        "cell.how": "La cella è descritta da un file. Si cambia lì; `depal cell check` lo controlla.",
         "cell.levels": "Scomparti",
         "cell.name": "Nome",
         "cell.pallet": "Pallet",
@@ -71,7 +69,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "file.too_large": "Questo file è più grande di 5 MB.",
         "first.do": "Crea l'account",
         "first.how": "Il primo account può impostare tutto. Gli altri si aggiungono dopo.",
-        "first.password": "Almeno 8 lettere o cifre.",
+        "first.password": "Almeno 10 lettere o cifre.",
         "first.title": "Il tuo account",
         "legend.asked": "c'è una domanda",
         "legend.blocker": "da togliere prima di una scatola richiesta",
@@ -112,6 +110,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "past.started": "{label} parte",
         "past.state_aborted": "interrotto",
         "past.state_done": "finito",
+        "past.state_failed": "non è partito",
         "past.state_running": "in corso",
         "past.tasks": "Compiti",
         "past.timeout": "{label}: troppo lento",
@@ -131,9 +130,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "person.you": "tu",
         "picture.none": "La telecamera non ha ancora guardato.",
         "picture.title": "Telecamera",
-        "picture.what": (
-            "L'ultima immagine del pallet, con il contorno di ogni scatola riconosciuta"
-        ),
+        "picture.what": "L'ultima immagine del pallet, con il contorno di ogni scatola riconosciuta",
         "product.about": "{gtin}, {size} cm, {mass} kg",
         "product.change": "Cambia {name}",
         "product.count": "{count} prodotti",
@@ -171,9 +168,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "settings.access": "libera le scatole richieste con meno mosse",
         "settings.paper": "come nell'articolo: prima il punteggio migliore",
         "settings.policy": "Quale scatola dopo",
-        "settings.preview": (
-            "Non ancora salvato. Vale dalla prossima scelta e dal prossimo movimento."
-        ),
+        "settings.preview": "Non ancora salvato. Vale dalla prossima scelta e dal prossimo movimento.",
         "settings.same": "Così lavora la cella adesso.",
         "settings.speed": "Velocità del braccio",
         "settings.speed_is": "Velocità del braccio: {speed} % della massima",
@@ -194,10 +189,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "summary.rate": "{rate} scatole/h",
         "summary.stored": "{stored} di {boxes} a posto",
         "todo.aborted": "Arresto di sicurezza: vai alla cella",
-        "todo.aborted_how": (
-            "Controlla che dentro non ci sia nessuno e sblocca l'arresto dal pannello della "
-            "cella. Da qui non si può sbloccare."
-        ),
+        "todo.aborted_how": "Controlla che dentro non ci sia nessuno e sblocca l'arresto dal pannello della cella. Da qui non si può sbloccare.",
         "todo.complete": "Porta via il pallet",
         "todo.complete_how": "Il pallet è vuoto: {stored} scatole a posto, {aside} messe da parte.",
         "todo.complete_next": "Metti il prossimo pallet, poi premi Avvia",
@@ -220,10 +212,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "token.add": "Crea un token",
         "token.days": "Valido per giorni",
         "token.expires": "valido fino a {when}",
-        "token.how": (
-            "Il sistema del negozio entra con un token. Può mandare richieste e leggere "
-            "eventi."
-        ),
+        "token.how": "Il sistema del negozio entra con un token. Può mandare richieste e leggere eventi.",
         "token.kept": "L'ho copiato",
         "token.name": "A che cosa serve",
         "token.none": "Nessun sistema ha un token.",

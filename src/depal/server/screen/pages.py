@@ -2,21 +2,23 @@
 
 from collections.abc import Callable
 from importlib.resources import files
-from typing import Protocol
 
 from fastapi import FastAPI, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
 from nicegui import app as screen
 from nicegui import ui
 
-from depal.server.cell import Cell
-from depal.server.screen.desk import Desk
+from depal.server.api import Exposure
+from depal.server.problems import Answer, SignInNeeded
+from depal.server.screen.desk import Desk, asked, desk_for
 from depal.server.screen.entrance import SCRIPT, STYLE, first_page, sign_in_page
 from depal.server.screen.hub import Hub
 from depal.server.screen.picture import ADDRESS as PICTURE
 from depal.server.screen.setup.products import ADDRESS as PRODUCT
+from depal.server.screen.toast import ENTRANCE
 from depal.server.screen.window import Window
 from depal.server.screen.words import CATALOGUES, language_of, words_of
+from depal.server.site import Site
 
 MAIN = "#2f3f4e"
 """Of whatever is chosen: no signal colour."""
@@ -29,24 +31,16 @@ EMPTY = (
 """A box, for products without a picture."""
 
 
-class Reception(Protocol):
-    """Knows people by what their browser sends."""
-
-    def desk(self, request: Request) -> Desk | None:
-        """The desk of whoever is signed in; None where nobody is."""
-        ...
-
-
-def attach(app: FastAPI, cell: Cell, reception: Reception) -> None:
+def attach(app: FastAPI, site: Site, exposure: Exposure) -> None:
     """Adds the screen to an application.
 
     Args:
         app: with the API.
-        cell: whose news are shown; commands go over desks alone.
-        reception: knows who is signed in.
+        site: what the use cases work with.
+        exposure: how it is reached.
     """
-    _add_pages(cell, reception)
-    _add_pictures(reception)
+    _add_pages(site, exposure)
+    _add_pictures(site, exposure)
     _add_files()
     ui.run_with(app, title="depal", tailwind=False, show_welcome_message=False)
 
@@ -59,23 +53,23 @@ def language_for(request: Request) -> str:
     return language_of(request.headers.get("accept-language", ""))
 
 
-def _add_pages(cell: Cell, reception: Reception) -> None:
-    hub = Hub(cell)
+def _add_pages(site: Site, exposure: Exposure) -> None:
+    hub = Hub(site.cell)
 
     @ui.page("/", title="depal")
     async def window(request: Request) -> Response | None:
-        desk = reception.desk(request)
-        if desk is None:
-            return RedirectResponse("/sign-in", 303)
+        try:
+            desk = await asked(desk_for, site, request.cookies.get(exposure.cookie))
+        except SignInNeeded:
+            return RedirectResponse(ENTRANCE, 303)
         ui.add_head_html(f'<link rel="stylesheet" href="{STYLE}">')
         ui.colors(primary=MAIN)
         language = language_for(request)
-        ui.query("html").props(f"lang={language}")
         page = Window(desk, hub, language)
         await page.live(ui.context.client)
         return None
 
-    @screen.get("/sign-in")
+    @screen.get(ENTRANCE)
     def sign_in(request: Request) -> HTMLResponse:
         language = language_for(request)
         return HTMLResponse(sign_in_page(language, words_of(language)))
@@ -86,25 +80,24 @@ def _add_pages(cell: Cell, reception: Reception) -> None:
         return HTMLResponse(first_page(language, words_of(language), code[:200]))
 
 
-def _add_pictures(reception: Reception) -> None:
+def _add_pictures(site: Site, exposure: Exposure) -> None:
     @screen.get(PICTURE)
     def picture(request: Request) -> Response:
-        desk = reception.desk(request)
-        if desk is None:
-            return Response(status_code=401)
-        return _image(desk.picture())
+        return _image(site, request.cookies.get(exposure.cookie), Desk.picture)
 
     @screen.get(PRODUCT + "/{gtin}")
     def product(request: Request, gtin: str) -> Response:
-        desk = reception.desk(request)
-        if desk is None:
-            return Response(status_code=401)
-        return _image(desk.product_picture(gtin))
+        secret = request.cookies.get(exposure.cookie)
+        return _image(site, secret, lambda desk: desk.product_picture(gtin))
 
 
-def _image(content: bytes) -> Response:
+def _image(site: Site, secret: str | None, find: Callable[[Desk], bytes]) -> Response:
     """A picture of a kind that browsers only draw."""
-    headers = {"cache-control": "no-store", "x-content-type-options": "nosniff"}
+    headers = {"cache-control": "no-store"}
+    try:
+        content = find(desk_for(site, secret))
+    except Answer as answer:
+        return Response(status_code=answer.status)
     if not content:
         return Response(EMPTY, media_type="image/svg+xml", headers=headers)
     kind = "image/png" if content.startswith(b"\x89PNG") else "image/jpeg"
