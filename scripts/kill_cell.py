@@ -61,7 +61,7 @@ class Cell:
         """Starts it."""
         self.data = data
         self._command = [
-            sys.executable, "-m", "depal.cli", "serve", "--data", str(data), "--port", "0",
+            str(Path(sys.executable).with_name("depal")), "serve", "--data", str(data), "--port", "0",
             "--perception", perception, "--pace", str(pace),
         ]  # fmt: skip
         self.link = self._up()

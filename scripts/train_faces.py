@@ -1,7 +1,8 @@
 """Trains the score of faces on simulated scenes: `python scripts/train_faces.py`.
 
 Scenes have seeds below a million; the bench of perception begins at two million. Two rounds: the
-second learns from the rectangles that the first believed in.
+second learns from the rectangles that the first believed in. Of the two scores the one of fronts
+learns from all faces, that of tops from tops alone.
 """
 
 import argparse
@@ -35,7 +36,7 @@ SHARE = 0.5
 
 
 def one(
-    seed: int, layout: CellLayout, deliveries: tuple[Delivery, ...], score: FaceScore | None
+    seed: int, layout: CellLayout, deliveries: tuple[Delivery, ...], finder: Finder | None
 ) -> Examples:
     """The examples of one scene."""
     random = np.random.default_rng([seed, 78])
@@ -43,7 +44,6 @@ def one(
         delivery = deliveries[int(random.integers(len(deliveries)))]
     else:
         delivery = random_delivery(seed)
-    finder = Finder(score) if score else None
     return examples_of(delivery, layout, seed, finder, shown_prints)
 
 
@@ -60,26 +60,27 @@ def main() -> None:
     parser.add_argument("--scenes", type=int, default=400)
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--deliveries", type=Path, help="a file of deliveries beside those shipped")
-    default = Path(depal.perception.scoring.__file__).with_name("faces.json")
-    parser.add_argument("--out", type=Path, default=default)
+    default = Path(depal.perception.scoring.__file__).parent
+    parser.add_argument("--out", type=Path, default=default, help="folder")
     options = parser.parse_args()
     deliveries = shipped_deliveries()
     if options.deliveries:
         deliveries += read_deliveries(options.deliveries)
-    score: FaceScore | None = None
+    finder: Finder | None = None
     half = options.scenes // 2
     examples = list[Examples]()
     for seeds in (range(half), range(half, options.scenes)):
         work = functools.partial(
-            one, layout=shipped_cell("default"), deliveries=deliveries, score=score
+            one, layout=shipped_cell("default"), deliveries=deliveries, finder=finder
         )
         with ProcessPoolExecutor(options.workers) as pool, progress_bar("Scenes") as tell:
             for done, each in enumerate(pool.map(work, seeds), start=1):
                 examples.append(each)
                 tell(done, len(seeds))
-        score = report(examples)
-    if score is not None:
-        options.out.write_text(score.as_text(), encoding="utf-8")
+        finder = Finder(report(examples), report([each.looking_up for each in examples]))
+    if finder is not None:
+        (options.out / "faces.json").write_text(finder.score.as_text(), encoding="utf-8")
+        (options.out / "tops.json").write_text(finder.tops.as_text(), encoding="utf-8")
 
 
 def report(examples: list[Examples]) -> FaceScore:

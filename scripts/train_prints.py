@@ -43,14 +43,14 @@ SIBLINGS = 3
 COSTLY = 3
 """An accepted sibling weighs as much as so many unnamed boxes."""
 
-ACCEPTED = 0.0085
+ACCEPTED = 0.0075
 """So many of the siblings may be accepted."""
 
 PARTS = 4
 """What it is worth is measured on one of so many parts, trained on the others."""
 
-NETWORKS = 3
-HOW = Schooling(hidden=16, steps=1500, batch=1024, rate=5e-3, decay=2e-4)
+NETWORKS = 6
+HOW = Schooling(hidden=24, steps=2000, batch=1024, rate=5e-3, decay=5e-5)
 
 
 def main() -> None:

@@ -28,6 +28,9 @@ AROUND = 0.018
 TOUCHED = 0.02
 """A face is found anew when more than this share of it and its surroundings has changed."""
 
+TWICE = 0.025
+"""Faces that are no farther from each other are one that was found twice [m]."""
+
 
 @dataclass(frozen=True, slots=True)
 class Known:
@@ -111,7 +114,30 @@ class Observer:
         fixed = [rectangle_of(raster, face) for face in kept]
         found = self.finder.faces(raster, known.expected, prints, fixed)
         sizes = known.expected.faces(raster.facing)
-        return tuple(located(_laid(raster, each), frames, sizes, known.gallery) for each in found)
+        placed = [located(_laid(raster, each), frames, sizes, known.gallery) for each in found]
+        return distinct(placed, kept)
+
+
+def distinct(faces: Sequence[Face], kept: Sequence[Face] = ()) -> tuple[Face, ...]:
+    """Faces in their order, without those that were found at two places and lie at one.
+
+    Two parts of one face may both be found; its print then sets both right. The likelier stays.
+
+    Args:
+        faces: that look one way, where they are located.
+        kept: others that look this way, which stay.
+    """
+    chosen = list[Face]()
+    for face in sorted(faces, key=lambda face: -face.score):
+        if all(_apart(face, other) > TWICE for other in (*kept, *chosen)):
+            chosen.append(face)
+    return tuple(face for face in faces if any(face is each for each in chosen))
+
+
+def _apart(face: Face, other: Face) -> float:
+    """How far two faces' middles are from each other, or their edges differ if that is more [m]."""
+    middles = math.dist(face.cell_from_face.translation, other.cell_from_face.translation)
+    return max(middles, *(abs(a - b) for a, b in zip(face.size, other.size, strict=True)))
 
 
 def printed_on(raster: Raster, gallery: Gallery) -> tuple[Printed, ...]:

@@ -3,16 +3,18 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
 
 from depal.perception.detecting.expected import Expected
+from depal.perception.detecting.kernels import agreeing
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
 from depal.perception.scoring import FaceScore, described, doubts, shipped_score
-from depal.perception.seams import Seams, directions_of, seams_of
+from depal.perception.seams import Seams, directions_of, seams_along
 
 Floats = npt.NDArray[np.float64]
 
@@ -72,12 +74,18 @@ class Finder:
 
     Attributes:
         score: how likely a rectangle is a face.
+        tops: the same for faces that look up.
         eager: added to every candidate's logarithm of odds before they are weighed against each
             other: so that what is not sure is found too, where nothing else explains the place.
     """
 
     score: FaceScore = field(default_factory=shipped_score)
+    tops: FaceScore = field(default_factory=partial(shipped_score, Facing.TOP))
     eager: float = 2.5
+
+    def score_of(self, facing: Facing) -> FaceScore:
+        """The score of faces that look this way."""
+        return self.tops if facing is Facing.TOP else self.score
 
     def faces(
         self,
@@ -94,8 +102,7 @@ class Finder:
             prints: where prints were seen; None where none was looked for.
             fixed: faces that are known already; none that is found overlaps them.
         """
-        turns = directions_of(raster, DIRECTIONS[raster.facing])
-        seams = [seams_of(raster, turn) for turn in turns]
+        seams = seams_along(raster, directions_of(raster, DIRECTIONS[raster.facing]))
         sizes = expected.faces(raster.facing)
         candidates, agreed = candidates_of(seams, sizes, prints)
         if not len(candidates):
@@ -103,7 +110,7 @@ class Finder:
         shares = agreed.max(axis=1) if agreed.shape[1] else np.full(len(candidates), -1.0)
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
-        odds = self.score.log_odds(features)
+        odds = self.score_of(raster.facing).log_odds(features)
         odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
@@ -156,9 +163,6 @@ def candidates_of(
 
 def _agreement(candidates: Candidates, printed: Candidates, scores: Floats) -> Floats:
     """(n, prints): the print's own score where it lies on the candidate, less the farther off."""
-    u, v, w, h, turn, _ = candidates.values.T[:, :, None]
-    pu, pv, pw, ph, pt, _ = printed.values.T[:, None, :]
-    along = np.abs(u - pu) + np.abs(w - pw) / 2
-    across = np.abs(v - pv) + np.abs(h - ph) / 2
-    away = np.maximum(along, across) + np.abs(turn - pt) * (w + h) / 4
-    return np.asarray(np.where(away < NEAR, scores * (1.0 - 0.5 * away / NEAR), -1.0))
+    out = np.empty((len(candidates), len(printed)))
+    agreeing(candidates.values, printed.values, scores, NEAR, out)
+    return out

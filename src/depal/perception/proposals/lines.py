@@ -74,7 +74,7 @@ def between_lines(seams: Seams, sizes: Sequence[tuple[float, float]]) -> Rectang
     found = _corners(seams, rows, columns)
     candidates = [_by_pairs(seams, found)]
     candidates += [_by_sizes(seams, found, rows, columns, sizes)]
-    pixels = np.concatenate(candidates)
+    pixels = _different(np.concatenate(candidates))
     kernels.snapped(rows, columns, max(round(NEAR / seams.step), 1), 1, pixels)
     wide, high = (pixels[:, 2:] - pixels[:, :2]).T
     pixels = _different(pixels[(wide > TINY) & (high > TINY)])

@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 import numpy.typing as npt
 
+from depal.perception.faces import Facing
 from depal.perception.scoring.features import NAMES
 
 Floats = npt.NDArray[np.float64]
@@ -64,8 +65,12 @@ class FaceScore:
         return cls(*(np.array(fields[name]) for name in ("middle", "scale", "first", "second")))
 
 
-@lru_cache(maxsize=1)
-def shipped_score() -> FaceScore:
-    """The score that ships."""
-    text = resources.files("depal.perception.scoring").joinpath("faces.json").read_text("utf-8")
+@lru_cache(maxsize=2)
+def shipped_score(facing: Facing = Facing.FRONT) -> FaceScore:
+    """The score that ships for faces that look this way.
+
+    Tops have one of their own: they are seen from nearer by, and boxes on them hide parts.
+    """
+    name = "tops.json" if facing is Facing.TOP else "faces.json"
+    text = resources.files("depal.perception.scoring").joinpath(name).read_text("utf-8")
     return FaceScore.from_text(text)

@@ -1,5 +1,6 @@
 """How much every place looks like the edge of a face, for edges that run one way."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -60,11 +61,25 @@ def seams_of(raster: Raster, turn: float) -> Seams:
         raster: what is seen.
         turn: clockwise, of the rows of faces against those of the raster [rad].
     """
+    return seams_along(raster, (turn,))[0]
+
+
+def seams_along(raster: Raster, turns: Sequence[float]) -> tuple[Seams, ...]:
+    """Evidence of edges in several directions.
+
+    Args:
+        raster: what is seen.
+        turns: clockwise, of the rows of faces against those of the raster [rad].
+    """
+    channels = _channels(raster)
+    return tuple(_seams(raster, channels, turn) for turn in turns)
+
+
+def _seams(raster: Raster, channels: Narrow, turn: float) -> Seams:
     height, width = raster.known.shape
     c, s = abs(np.cos(turn)), abs(np.sin(turn))
     size = (int(np.ceil(width * c + height * s)), int(np.ceil(width * s + height * c)))
     back = _raster_from_turned(turn, (width, height), size)
-    channels = _channels(raster)
     depth = np.where(np.isfinite(raster.depth), raster.depth, 0.0).astype(np.float32)
     if turn == 0.0:
         known, turned, deep = raster.known, channels, raster.depth

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from depal.perception.settling.carrying import Contact, contacts
 from depal.perception.settling.draft import YAW, Draft, Z
+from depal.perception.settling.kernels import inverse
 
 Floats = npt.NDArray[np.float64]
 
@@ -65,14 +66,14 @@ def settled(drafts: Sequence[Draft], ground: float) -> Settled:
     states = np.array([draft.guess for draft in drafts]).reshape(n, 4)
     scales = np.zeros(cameras)
     touching: list[Contact] = []
-    covariance: Floats = np.zeros((4 * n + cameras, 4 * n + cameras))
+    covariance = np.zeros((4 * n + cameras, 4 * n + cameras))
     for turn in range(ROUNDS):
         spread = USUAL if turn == 0 else _spread(states, covariance)
         normal, pull = _of_faces(drafts, states, scales)
         _straightened(normal, pull, states, spread)
         for contact in touching:
             _carried(normal, pull, contact)
-        covariance = np.asarray(np.linalg.inv(normal))
+        inverse(normal, covariance)
         step = covariance @ pull
         states += step[: 4 * n].reshape(n, 4)
         scales += step[4 * n :]

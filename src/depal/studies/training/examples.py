@@ -13,7 +13,7 @@ from depal.geometry import Vector3
 from depal.perception.calibration import calibrate
 from depal.perception.detecting import Expected, Finder
 from depal.perception.detecting.finding import DIRECTIONS, Printed, candidates_of
-from depal.perception.faces import Raster
+from depal.perception.faces import Facing, Raster
 from depal.perception.proposals.candidates import Candidates, best
 from depal.perception.rasters import Region, rasters_of
 from depal.perception.scoring import described
@@ -23,6 +23,7 @@ from depal.simulation.scenes import Kind, Scene, Severity, TrueFace, scene
 from depal.studies.perception.polygons import agreement
 
 Floats = npt.NDArray[np.float64]
+Flags = npt.NDArray[np.bool_]
 Prints = Callable[[Raster, Scene, np.random.Generator], Sequence[Printed]]
 
 RIGHT, WRONG = 0.85, 0.72
@@ -69,10 +70,18 @@ class Examples:
     Attributes:
         features: (n, d).
         faces: (n,) 1 where it is a face.
+        tops: (n,) whether it looks up.
     """
 
     features: Floats
     faces: Floats
+    tops: Flags
+
+    @property
+    def looking_up(self) -> "Examples":
+        """Those of tops alone."""
+        up = self.tops
+        return Examples(self.features[up], self.faces[up], self.tops[up])
 
     @classmethod
     def joined(cls, parts: Iterable["Examples"]) -> "Examples":
@@ -81,6 +90,7 @@ class Examples:
         return cls(
             np.concatenate([each.features for each in every]),
             np.concatenate([each.faces for each in every]),
+            np.concatenate([each.tops for each in every]),
         )
 
 
@@ -182,12 +192,13 @@ def _of_raster(
     chosen = [best(candidates, sides + measured[:, 4:8].min(axis=1), BY_SIDES)]
     chosen.append(random.permutation(len(candidates))[:BY_LOT])
     if finder is not None:
-        chosen.append(best(candidates, finder.score.log_odds(features), BY_SCORE))
+        chosen.append(best(candidates, finder.score_of(raster.facing).log_odds(features), BY_SCORE))
     rows = np.unique(np.concatenate(chosen))
     covered, seen = coverage(raster, candidates[rows], faces)
     right = (covered > RIGHT) & (seen > SEEN)
     use = right | (covered < WRONG)
-    return Examples(features[rows[use]], right[use].astype(float))
+    tops = np.full(int(use.sum()), raster.facing is Facing.TOP)
+    return Examples(features[rows[use]], right[use].astype(float), tops)
 
 
 def coverage(
