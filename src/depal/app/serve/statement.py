@@ -10,9 +10,6 @@ from depal.cell.reporting import ChoiceNote, Line
 from depal.cell.timekeeping import WAITING
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Gtin, StorageKind
-from depal.executive.engine import Engine
-from depal.executive.tree import NodeState, state_of
-from depal.executive.why import why
 from depal.geometry import OrientedBox
 from depal.server.cellstate import (
     Alarm,
@@ -22,18 +19,15 @@ from depal.server.cellstate import (
     RequestState,
     Solid,
     StandingBox,
-    TaskNode,
-    TaskTree,
     TrolleyState,
 )
+from depal.server.tasktrees import trees_of
 
 SECONDS_PER_BOX = 8.0
 """How long a box takes before any has left [s]; `depal study throughput` measures it."""
 
 MANY = 6
 """Boxes from which on a run's own pace tells how long a box takes."""
-
-RUNNING = "running"
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +90,7 @@ def statement(wired: Assembly, moment: Moment, before: CellState) -> CellState:
         requests=_requests(wired, moment),
         questions=before.questions,
         alarms=moment.alarms,
-        trees=trees_of(wired.controller.runtime.engine),
+        trees=trees_of(wired.controller.runtime.engine.state),
         picture=moment.picture,
     )
 
@@ -210,27 +204,3 @@ def _requests(wired: Assembly, moment: Moment) -> tuple[RequestState, ...]:
             )
         )
     return tuple(states)
-
-
-def trees_of(engine: Engine) -> tuple[TaskTree, ...]:
-    """The task trees with the states that the paper's figures show."""
-    state = engine.state
-    trees = []
-    for tree in state.trees.values():
-        standings = state.standings(tree)
-        nodes = []
-        for live, standing in zip(tree.nodes, standings, strict=True):
-            shown = state_of(live=standing.live, post=standing.post)
-            running = live.attempt is not None
-            text = why(state, tree, live.node.index).text if shown is NodeState.DISABLED else ""
-            nodes.append(
-                TaskNode(
-                    live.node.label,
-                    live.node.depth,
-                    RUNNING if running else shown.value,
-                    not live.node.children,
-                    text,
-                )
-            )
-        trees.append(TaskTree(tree.number, tree.priority, tuple(nodes)))
-    return tuple(trees)

@@ -1,0 +1,1 @@
+"""Parts of the screen as markup: pure functions of the cell's state."""

@@ -1,0 +1,79 @@
+"""Short answers to what somebody did, and the guard against doing it twice."""
+
+from collections.abc import Callable
+
+from nicegui import ui
+
+from depal.errors import DepalError, InputError
+from depal.server.problems import Answer, SignInNeeded
+from depal.server.screen.desk import asked
+from depal.server.screen.said import Said
+
+ENTRANCE = "/sign-in"
+
+
+def told(message: str) -> None:
+    """It is done."""
+    ui.notify(message, position="bottom", classes="toast", icon="check", timeout=4000)
+
+
+def refused(message: str) -> None:
+    """It cannot be done, and why."""
+    ui.notify(
+        message, position="bottom", classes="toast is-refused", icon="block", timeout=9000,
+        close_button="OK", multi_line=True,
+    )  # fmt: skip
+
+
+class Guard:
+    """One command at a time for each window: what is pressed meanwhile was pressed twice.
+
+    Attributes:
+        problems: all that was wrong with what was refused last.
+    """
+
+    def __init__(self, said: Said) -> None:
+        """Nothing is under way.
+
+        Args:
+            said: puts what the cell says into the screen's language.
+        """
+        self._said = said
+        self._busy = False
+        self.problems: tuple[str, ...] = ()
+
+    async def do(self, message: str, command: Callable[..., object], *arguments: object) -> bool:
+        """Calls a use case and tells what came of it.
+
+        Args:
+            message: where it is done; empty to say nothing.
+            command: of the desk.
+            arguments: for it.
+
+        Returns:
+            Whether it was done; else it was refused, or something else is under way.
+        """
+        if self._busy:
+            return False
+        self._busy, self.problems = True, ()
+        try:
+            await asked(command, *arguments)
+        except SignInNeeded:
+            ui.navigate.to(ENTRANCE)
+            return False
+        except DepalError as error:
+            self._refuse(error)
+            return False
+        finally:
+            self._busy = False
+        if message:
+            told(message)
+        return True
+
+    def _refuse(self, error: DepalError) -> None:
+        found = error.problems if isinstance(error, (Answer, InputError)) else ()
+        self.problems = tuple(str(problem) for problem in found)
+        text = str(error).splitlines()[0]
+        if len(self.problems) == 1 and isinstance(error, Answer):
+            text = self.problems[0]
+        refused(self._said(text))
