@@ -27,6 +27,7 @@ from depal.server.api import Exposure, build_app
 from depal.server.cell import Order
 from depal.server.chance import SystemChance
 from depal.server.records import KeptSettings, Queue, Runs
+from depal.server.screen import attach
 from depal.server.site import Site
 
 STORE = "store.db"
@@ -118,7 +119,9 @@ class Service:
         )
         self._keep_what_the_cell_has()
         names = frozenset(serving.names)
-        self.app = build_app(self.site, Exposure(names, serving.secure))
+        exposure = Exposure(names, serving.secure)
+        self.app = build_app(self.site, exposure)
+        attach(self.app, self.site, exposure)
 
     def _keep_what_the_cell_has(self) -> None:
         self.site.store.keep_places(self.host.layout.places.values())
