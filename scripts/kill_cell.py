@@ -80,6 +80,11 @@ class Cell:
         self.base = "/".join(self.link.split("/")[:3])
         return self.link
 
+    @property
+    def cookies(self) -> httpx2.Cookies:
+        """Of whoever is signed in."""
+        return self._client.cookies
+
     def kill(self) -> None:
         """As nobody could prevent; then it is started anew."""
         self.process.send_signal(signal.SIGKILL)

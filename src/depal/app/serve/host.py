@@ -390,7 +390,9 @@ class Host:
         )
         mode, reason = mode_of(session, alarms)
         if session is None:
-            return empty_statement(self._state, mode, reason, alarms, self._settings, self._clock)
+            return empty_statement(
+                self._means.layout, self._state, mode, reason, alarms, self._settings, self._clock
+            )
         moment = Moment(
             mode, reason, session.order.run, session.began, session.note, alarms,
             self._picture.number,
