@@ -193,7 +193,7 @@ class ScriptedCell:
             l = pulls.get(line.box, 0.0)  # noqa: E741
             s = 0.5 * line.h + 0.5 * l
             on_top = tuple(o.box for o in lines if _on(o.solid, line.solid))
-            reason = f"blocked: {', '.join(on_top)} on top" if on_top else "scored lower"
+            reason = f"{', '.join(on_top)} on top" if on_top else "scored lower"
             scored.append(replace(line, l=l, s=s, blockers=on_top, reason=reason,
                                   requested=line.box in self._aims))  # fmt: skip
         free = [line for line in scored if not line.blockers]

@@ -1,7 +1,7 @@
 """The cell from above and from the front, as SVG: for browsers that cannot draw it in 3-D."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from depal.domain import CellLayout
@@ -79,17 +79,18 @@ def plan(layout: CellLayout, state: CellState, words: Words) -> Markup:
         *_ground(layout),
         *(_top(Drawn("", s.solid, Mark.PLAIN), from_above, "standing") for s in state.standing),
         *(_top(drawn, from_above, "box") for drawn in boxes),
+        *_names(layout),
         *_arm(layout, state, from_above),
         *(_sign(drawn, from_above) for drawn in boxes),
     ]
-    return tag("svg", *parts, viewBox=frame, role="img", aria_label=words("view.plan"))
+    return _drawing(parts, frame, words("view.plan"))
 
 
 def elevation(layout: CellLayout, state: CellState, words: Words) -> Markup:
     """The view from the arm to the pallet."""
     stand = layout.pallet
     length, _, deck = stand.size
-    frame = f"{-0.75 * SCALE:.0f} {-CEILING * SCALE:.0f} {1.5 * SCALE:.0f} {(CEILING + 0.1) * SCALE:.0f}"
+    frame = f"-75 {-CEILING * SCALE:.0f} 150 {(CEILING + 0.1) * SCALE:.0f}"
     boxes = sorted(pile_of(state), key=lambda drawn: -drawn.solid.centre[0])
     left, top = from_front((0.0, length / 2, 0.0))
     parts = [
@@ -100,7 +101,11 @@ def elevation(layout: CellLayout, state: CellState, words: Words) -> Markup:
         *(_sign(drawn, from_front) for drawn in boxes),
         _tool(layout, state),
     ]  # fmt: skip
-    return tag("svg", *parts, viewBox=frame, role="img", aria_label=words("view.elevation"))
+    return _drawing(parts, frame, words("view.elevation"))
+
+
+def _drawing(parts: Iterable[Markup | None], frame: str, name: str) -> Markup:
+    return tag("svg", *parts, viewBox=frame, role="img", aria_label=name)
 
 
 def _ground(layout: CellLayout) -> Iterator[Markup]:
@@ -121,7 +126,11 @@ def _ground(layout: CellLayout) -> Iterator[Markup]:
         )  # fmt: skip
         pose = storage.cell_from_storage
         yield tag("polygon", points=_points(map(pose.apply, corners), from_above), cls="storage")
-        x, y = from_above(pose.apply((deep / 2, 0.0, 0.0)))
+
+
+def _names(layout: CellLayout) -> Iterator[Markup]:
+    for storage in layout.storages:
+        x, y = from_above(storage.cell_from_storage.apply((storage.size[1] / 2, 0.0, 0.0)))
         yield tag("text", storage.id.replace("_", " "), x=round(x), y=round(y) + 5, cls="name")
 
 

@@ -218,7 +218,7 @@ def _times(a: Turn, b: Turn) -> Turn:
 def _along(axis: Iterable[float]) -> Turn:
     """A rotation that carries y, a cylinder's axis, to a direction."""
     x, y, z = axis
-    other = (1.0, 0.0, 0.0) if abs(x) < 0.9 else (0.0, 0.0, 1.0)
+    other = (1.0, 0.0, 0.0) if abs(x) < abs(y) + abs(z) else (0.0, 0.0, 1.0)
     side = _cross((x, y, z), other)
     length = math.hypot(*side)
     u = (side[0] / length, side[1] / length, side[2] / length)

@@ -14,7 +14,7 @@ ENTRANCE = "/sign-in"
 
 def told(message: str) -> None:
     """It is done."""
-    ui.notify(message, position="bottom", classes="toast", icon="check", timeout=4000)
+    ui.notify(message, position="bottom", classes="toast", icon="check", timeout=3000)
 
 
 def refused(message: str) -> None:

@@ -29,8 +29,8 @@ def cell_summary(layout: CellLayout, words: Words) -> Markup:
     shares = [
         ("cell.name", layout.name),
         ("cell.robot", f"{layout.robot.name}, {layout.robot.payload:g} kg"),
-        ("cell.floor", f"{right - left:.1f} × {high - low:.1f} m"),
-        ("cell.pallet", f"{length:.2f} × {width:.2f} × {deck:.3f} m"),
+        ("cell.floor", f"{right - left:.1f} x {high - low:.1f} m"),
+        ("cell.pallet", f"{length:.2f} x {width:.2f} x {deck:.3f} m"),
         ("cell.places", ", ".join(_storage(storage.id) for storage in layout.storages)),
         ("cell.levels", str(len(layout.places))),
         ("cell.aside", _storage(layout.aside)),

@@ -6,7 +6,7 @@ from depal.server.people import PersonView
 from depal.server.roles import PEOPLE, Role
 from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import tag
-from depal.server.screen.pane import html, put
+from depal.server.screen.pane import html
 from depal.server.screen.toast import Guard
 from depal.server.screen.words import Words
 

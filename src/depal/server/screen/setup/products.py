@@ -50,7 +50,7 @@ class ProductsPart:
 
     def _line(self, product: ProductView) -> None:
         words = self._words
-        size = " × ".join(f"{100 * edge:.1f}" for edge in product.size)
+        size = " x ".join(f"{100 * edge:.1f}" for edge in product.size)
         told = words("product.about", gtin=product.gtin, size=size, mass=f"{product.mass:.2f}")
         with ui.element("li").classes("line"):
             picture = ui.element("img").classes("front")
