@@ -43,7 +43,7 @@ class Window:
         self._past: PastView | None = None
         self._setup: SetupView | None = None
         self._rail()
-        with ui.element("main").props("id=main").classes("main"):
+        with ui.element("div").classes("main"):
             html(self._words("app.title"), "h1").classes("unseen")
             for view in VIEWS:
                 self._sections[view] = ui.element("div").classes(f"view view-{view}")

@@ -76,6 +76,7 @@ class ProductsPart:
     def _open(self, product: ProductView) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("product.title", gtin=product.gtin)
         with self._form, ui.card().classes("form"):
             html(words("product.title", gtin=product.gtin), "h2").classes("h3")
             name = ui.input(words("product.name"), value=product.name).props("outlined")

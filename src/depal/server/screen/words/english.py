@@ -35,6 +35,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "cell.robot": "Robot, payload",
         "cell.speed": "Greatest speed",
         "cell.title": "This cell",
+        "choosing.found": "{count} found",
         "delivery.about": "{boxes} boxes, uploaded by {by}, {state}",
         "delivery.cancel": "Take {name} out of the queue",
         "delivery.cancelled": "cancelled",
@@ -265,6 +266,6 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "wish.this_one": "no box before it, about {minutes} min",
         "wish.title": "Requests",
         "wish.unknown": "not seen yet",
-        "wish.what": "Product or box",
+        "wish.what": "Search a product or a box",
     }
 )

@@ -35,6 +35,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "cell.robot": "Robot, portata",
         "cell.speed": "Velocità massima",
         "cell.title": "Questa cella",
+        "choosing.found": "{count} trovati",
         "delivery.about": "{boxes} scatole, caricata da {by}, {state}",
         "delivery.cancel": "Togli {name} dalla coda",
         "delivery.cancelled": "annullata",
@@ -267,6 +268,6 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "wish.this_one": "nessuna scatola prima, circa {minutes} min",
         "wish.title": "Richieste",
         "wish.unknown": "non ancora vista",
-        "wish.what": "Prodotto o scatola",
+        "wish.what": "Cerca un prodotto o una scatola",
     }
 )
