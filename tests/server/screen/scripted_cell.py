@@ -200,13 +200,13 @@ class ScriptedCell:
         target = max(free, key=lambda line: line.s) if free else None
         best = sorted(scored, key=lambda line: -line.s)
         told = tuple(
-            replace(line, fate="chosen", reason="best score that can be taken")
+            replace(line, fate="chosen", reason="the best score of all boxes that can be grasped")
             if target is not None and line.box == target.box
             else line
             for line in best
         )
         name = target.box if target is not None else None
-        self._tell(queue=told, target=name, explanation="best score that can be taken")
+        self._tell(queue=told, target=name, explanation="the best score of all boxes that can be grasped")
         self._estimate()
 
     def _pulls(self, lines: list[QueueLine]) -> dict[str, float]:

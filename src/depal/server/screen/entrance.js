@@ -19,7 +19,8 @@ form.addEventListener("submit", async (event) => {
     }
     const problem = await answer.json();
     const parts = (problem.problems || []).map((each) =>
-      each.expected ? `${each.what}; ${wrong.dataset.expected} ${each.expected}` : each.what);
+      `${each.where}: ${each.what}` +
+      (each.expected ? `; ${wrong.dataset.expected} ${each.expected}` : ""));
     wrong.textContent = parts.join(". ") || problem.detail || problem.title || answer.statusText;
   } catch {
     wrong.textContent = wrong.dataset.away;

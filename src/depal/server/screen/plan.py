@@ -10,7 +10,7 @@ from depal.server.cellstate import CellState, Solid
 from depal.server.screen.markup import Markup, joined, tag
 from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, marks_of
 from depal.server.screen.posture import posture
-from depal.server.screen.words import Words
+from depal.server.screen.words import Words, place_name
 
 SCALE = 100.0
 """Units of the drawing per metre."""
@@ -20,6 +20,9 @@ CEILING = 2.2
 
 NEAR = 0.7
 """From here on the end of the arm is before the pallet [m]."""
+
+ASIDE = 0.65
+"""The view from the front is so wide to either side [m]."""
 
 Point = tuple[float, float]
 View = Callable[[Vector3], Point]
@@ -79,7 +82,7 @@ def plan(layout: CellLayout, state: CellState, words: Words) -> Markup:
         *_ground(layout),
         *(_top(Drawn("", s.solid, Mark.PLAIN), from_above, "standing") for s in state.standing),
         *(_top(drawn, from_above, "box") for drawn in boxes),
-        *_names(layout),
+        *_names(layout, words),
         *_arm(layout, state, from_above),
         *(_sign(drawn, from_above) for drawn in boxes),
     ]
@@ -128,10 +131,10 @@ def _ground(layout: CellLayout) -> Iterator[Markup]:
         yield tag("polygon", points=_points(map(pose.apply, corners), from_above), cls="storage")
 
 
-def _names(layout: CellLayout) -> Iterator[Markup]:
+def _names(layout: CellLayout, words: Words) -> Iterator[Markup]:
     for storage in layout.storages:
         x, y = from_above(storage.cell_from_storage.apply((storage.size[1] / 2, 0.0, 0.0)))
-        yield tag("text", storage.id.replace("_", " "), x=round(x), y=round(y) + 5, cls="name")
+        yield tag("text", place_name(storage.id, words), x=round(x), y=round(y) + 5, cls="name")
 
 
 def _points(corners: "Iterator[Vector3] | map[Vector3]", view: View) -> str:
@@ -181,7 +184,7 @@ def _arm(layout: CellLayout, state: CellState, view: View) -> Iterator[Markup]:
 def _tool(layout: CellLayout, state: CellState) -> Markup | None:
     """The end of the arm, where it is before the pallet: the arm itself would hide the boxes."""
     flange = posture(layout.robot, state.joints)[-1].origin
-    if flange[0] < NEAR:
+    if flange[0] < NEAR or abs(flange[1]) > ASIDE:
         return None
     x, y = from_front(flange)
     return tag("circle", cx=round(x), cy=round(y), r=11, cls="tool")

@@ -71,6 +71,7 @@ CELL_ITALIAN: Final[tuple[tuple[str, str], ...]] = (
         ),
         "La cella è ripartita mentre spostava la scatola {box} e i sensori non sanno dov'è. Dov'è?",
     ),
+    ("trolley_{number}", "Il carrello {number}"),
     # Answers
     ("taken", "l'ho presa"),
     ("done", "fatto"),

@@ -138,6 +138,10 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "picture.what": (
             "L'ultima immagine del pallet, con il contorno di ogni scatola riconosciuta"
         ),
+        "place.level": "ripiano {number}",
+        "place.shelf": "scaffale {number}",
+        "place.shelf_alone": "scaffale",
+        "place.trolley": "carrello {number}",
         "product.about": "{gtin}, {size} cm, {mass} kg",
         "product.change": "Cambia {name}",
         "product.count": "{count} prodotti",
