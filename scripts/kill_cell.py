@@ -60,8 +60,9 @@ class Cell:
     def __init__(self, data: Path, pace: float, perception: str) -> None:
         """Starts it."""
         self.data = data
+        command = str(Path(sys.executable).with_name("depal"))
         self._command = [
-            str(Path(sys.executable).with_name("depal")), "serve", "--data", str(data), "--port", "0",
+            command, "serve", "--data", str(data), "--port", "0",
             "--perception", perception, "--pace", str(pace),
         ]  # fmt: skip
         self.link = self._up()
@@ -78,6 +79,11 @@ class Cell:
         self.link = line.split(": ", 1)[1].strip()
         self.base = "/".join(self.link.split("/")[:3])
         return self.link
+
+    @property
+    def cookies(self) -> httpx2.Cookies:
+        """Of whoever is signed in."""
+        return self._client.cookies
 
     def kill(self) -> None:
         """As nobody could prevent; then it is started anew."""

@@ -102,6 +102,7 @@ def _manage(call: Caller, site: Site, number: int) -> None:
     call("POST", "/people", json=person)
     call("PUT", "/people/{name}/role", (name,), json={"role": "operator"})
     call("PUT", "/people/{name}/password", (name,), json={"password": PASSWORD})
+    site.chance.time += 1000.0  # type: ignore[attr-defined] # what failed before is forgiven
     call("POST", "/sign-in", json={"name": name, "password": PASSWORD})
     secret = site.sessions.open(name)
     call("POST", "/sign-out", headers={"cookie": f"depal={secret}"})

@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 
 from depal.app.serve.outside import Records
 from depal.cell.files import shipped_cell
-from depal.domain import CellLayout, Gtin, Request, cell_from_pallet
+from depal.domain import CellLayout, Request, cell_from_pallet
 from depal.server.cell import Order, Refusal, Settings, Watcher
 from depal.server.cellstate import (
     Alarm,

@@ -88,6 +88,7 @@ class Host:
         self._state = CellState()
         self._session: Session | None = None
         self._running: asyncio.Task[None] | None = None
+        self._resuming: asyncio.Task[None] | None = None
         self._trouble: Alarm | None = None
         self._picture = Picture()
         self._world: World | None = None
@@ -312,7 +313,19 @@ class Host:
             raise Refusal("the cell is working")
         if session.wired.work.ports.safety.state().stopped:
             raise Refusal("a safety stop is active; it is released at the cell, not from here")
-        await session.resume(source)
+        self._trouble = None
+        # A person need not wait until the arm has drawn clear: the state tells how it goes on.
+        self._resuming = asyncio.create_task(self._go_on(session, source))
+        await asyncio.sleep(0)
+        self._tell()
+
+    async def _go_on(self, session: Session, source: str) -> None:
+        try:
+            await session.resume(source)
+        except DepalError as error:
+            text, todo = f"The cell could not go on: {error}", "Look at the cell, then press Start."
+            self._trouble = Alarm("resume", text, todo, self._clock.now())
+            session.stage = Stage.HELD
         self._tell()
 
     def _stop_after_box(self) -> None:
@@ -377,7 +390,9 @@ class Host:
         )
         mode, reason = mode_of(session, alarms)
         if session is None:
-            return empty_statement(self._state, mode, reason, alarms, self._settings, self._clock)
+            return empty_statement(
+                self._means.layout, self._state, mode, reason, alarms, self._settings, self._clock
+            )
         moment = Moment(
             mode, reason, session.order.run, session.began, session.note, alarms,
             self._picture.number,

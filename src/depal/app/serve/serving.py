@@ -3,6 +3,7 @@
 import asyncio
 import logging
 import signal
+import sys
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
 from dataclasses import dataclass
@@ -27,6 +28,7 @@ from depal.server.api import Exposure, build_app
 from depal.server.cell import Order
 from depal.server.chance import SystemChance
 from depal.server.records import KeptSettings, Queue, Runs
+from depal.server.screen import attach
 from depal.server.site import Site
 
 STORE = "store.db"
@@ -35,6 +37,9 @@ RUNS = "runs"
 
 LINGER = 3.0
 """After a signal connections that are open get so long to end [s]."""
+
+TURN = 0.001
+"""Threads that compute give way to those that answer after so long [s]."""
 
 FASTEST = 50.0
 """The greatest pace of a simulated world."""
@@ -118,7 +123,9 @@ class Service:
         )
         self._keep_what_the_cell_has()
         names = frozenset(serving.names)
-        self.app = build_app(self.site, Exposure(names, serving.secure))
+        exposure = Exposure(names, serving.secure)
+        self.app = build_app(self.site, exposure)
+        attach(self.app, self.site, exposure)
 
     def _keep_what_the_cell_has(self) -> None:
         self.site.store.keep_places(self.host.layout.places.values())
@@ -178,6 +185,7 @@ def serve(serving: Serving, say: Callable[[str], None]) -> None:
         InputError: something that was given cannot be used.
         DepalError: the world or the cell does not start.
     """
+    sys.setswitchinterval(TURN)
     service = Service(serving)
     # The web server ends on these signals and then raises them again, for whoever waits: for us
     # they are over by then, and cell and world end in order.
