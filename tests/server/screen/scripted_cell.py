@@ -193,20 +193,20 @@ class ScriptedCell:
             l = pulls.get(line.box, 0.0)  # noqa: E741
             s = 0.5 * line.h + 0.5 * l
             on_top = tuple(o.box for o in lines if _on(o.solid, line.solid))
-            reason = f"blocked: {', '.join(on_top)} on top" if on_top else "scored lower"
+            reason = f"{', '.join(on_top)} on top" if on_top else "scored lower"
             scored.append(replace(line, l=l, s=s, blockers=on_top, reason=reason,
                                   requested=line.box in self._aims))  # fmt: skip
         free = [line for line in scored if not line.blockers]
         target = max(free, key=lambda line: line.s) if free else None
         best = sorted(scored, key=lambda line: -line.s)
         told = tuple(
-            replace(line, fate="chosen", reason="best score that can be taken")
+            replace(line, fate="chosen", reason="the best score of all boxes that can be grasped")
             if target is not None and line.box == target.box
             else line
             for line in best
         )
         name = target.box if target is not None else None
-        self._tell(queue=told, target=name, explanation="best score that can be taken")
+        self._tell(queue=told, target=name, explanation="the best score of all boxes that can be grasped")
         self._estimate()
 
     def _pulls(self, lines: list[QueueLine]) -> dict[str, float]:

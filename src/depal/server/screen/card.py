@@ -88,7 +88,7 @@ class Card:
 
     async def _bring(self, name: str, content: bytes) -> None:
         done = self._words("done.upload", name=name)
-        await self._guard.do(done, self._desk.upload, name, content)
+        await self._guard.do(done, self._desk.upload, name, content, listed=True)
         put(self._problems, problems(self._guard.problems, self._words))
         await self._told_anew()
 

@@ -18,7 +18,10 @@ form.addEventListener("submit", async (event) => {
       return;
     }
     const problem = await answer.json();
-    wrong.textContent = problem.detail || problem.title || answer.statusText;
+    const parts = (problem.problems || []).map((each) =>
+      `${each.where}: ${each.what}` +
+      (each.expected ? `; ${wrong.dataset.expected} ${each.expected}` : ""));
+    wrong.textContent = parts.join(". ") || problem.detail || problem.title || answer.statusText;
   } catch {
     wrong.textContent = wrong.dataset.away;
   }

@@ -65,6 +65,7 @@ def _add_pages(site: Site, exposure: Exposure) -> None:
         ui.add_head_html(f'<link rel="stylesheet" href="{STYLE}">')
         ui.colors(primary=MAIN)
         language = language_for(request)
+        ui.add_head_html(f'<script>document.documentElement.lang = "{language}"</script>')
         page = Window(desk, hub, language)
         await page.live(ui.context.client)
         return None

@@ -16,7 +16,6 @@ from depal.server.screen.panels.queue import queue_table
 from depal.server.screen.panels.tree import trees
 from depal.server.screen.replayed import Moment, Replayed
 from depal.server.screen.said import Said
-from depal.server.screen.toast import refused
 from depal.server.screen.words import Words
 
 
@@ -43,7 +42,7 @@ class PastView:
         words = self._words
         with ui.element("section").classes("card"):
             self._title = html("", "h2").classes("h3")
-            with ui.element("div").classes("scrub"):
+            with ui.element("div").classes("scrub") as scrub:
                 back = ui.button(icon="chevron_left", on_click=lambda: self._step(-1))
                 back.props(f'flat aria-label="{words("past.back")}"').classes("small")
                 self._slider = ui.slider(min=0, max=1, step=1, value=0, on_change=self._scrub)
@@ -51,13 +50,15 @@ class PastView:
                 on = ui.button(icon="chevron_right", on_click=lambda: self._step(1))
                 on.props(f'flat aria-label="{words("past.on")}"').classes("small")
             self._happened = html("").props("aria-live=polite")
-        with ui.element("section").classes("card"):
+        with ui.element("section").classes("card") as tasks:
             html(words("past.tasks"), "h3")
             self._trees = html("")
-        with ui.element("section").classes("card"):
+        with ui.element("section").classes("card") as selection:
             html(words("past.selection"), "h3")
             self._selection = html("").classes("scrolls")
             self._selection.props(f'tabindex=0 role=region aria-label="{words("past.selection")}"')
+
+        self._parts = (scrub, self._happened, tasks, selection)
 
     async def open(self) -> None:
         """The runs as they are now."""
@@ -85,24 +86,32 @@ class PastView:
         try:
             folder = await asked(self._desk.record, run.number)
             self._replayed = await asked(Replayed.read, folder)
-        except DepalError as error:
-            refused(str(error))
+        except DepalError:
+            self._mark(run)
+            put(self._title, self._words("past.no_record", number=run.number))
+            self._show_parts(shown=False)
             return
-        for number, button in self._buttons.items():
-            button.classes(
-                add="is-here" if number == run.number else "",
-                remove="" if number == run.number else "is-here",
-            )
+        self._mark(run)
         text = self._words("past.run", number=run.number, delivery=run.delivery)
         put(self._title, tag("span", text))
         last = len(self._replayed.steps)
-        self._shown.set_visibility(True)
+        self._show_parts(shown=True)
         self._slider.props["max"] = last
         self._slider.update()
         if self._slider.value == last:
             await self._scrub()
         else:
             self._slider.set_value(last)
+
+    def _mark(self, run: RunView) -> None:
+        for number, button in self._buttons.items():
+            here = number == run.number
+            button.classes(add="is-here" if here else "", remove="" if here else "is-here")
+
+    def _show_parts(self, *, shown: bool) -> None:
+        self._shown.set_visibility(True)
+        for part in self._parts:
+            part.set_visibility(shown)
 
     def _step(self, by: int) -> None:
         value = int(self._slider.value) + by

@@ -1,7 +1,7 @@
 """The cell from above and from the front, as SVG: for browsers that cannot draw it in 3-D."""
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 
 from depal.domain import CellLayout
@@ -10,7 +10,7 @@ from depal.server.cellstate import CellState, Solid
 from depal.server.screen.markup import Markup, joined, tag
 from depal.server.screen.panels.marks import SHAPES, TINTS, Mark, marks_of
 from depal.server.screen.posture import posture
-from depal.server.screen.words import Words
+from depal.server.screen.words import Words, place_name
 
 SCALE = 100.0
 """Units of the drawing per metre."""
@@ -20,6 +20,9 @@ CEILING = 2.2
 
 NEAR = 0.7
 """From here on the end of the arm is before the pallet [m]."""
+
+ASIDE = 0.65
+"""The view from the front is so wide to either side [m]."""
 
 Point = tuple[float, float]
 View = Callable[[Vector3], Point]
@@ -79,17 +82,18 @@ def plan(layout: CellLayout, state: CellState, words: Words) -> Markup:
         *_ground(layout),
         *(_top(Drawn("", s.solid, Mark.PLAIN), from_above, "standing") for s in state.standing),
         *(_top(drawn, from_above, "box") for drawn in boxes),
+        *_names(layout, words),
         *_arm(layout, state, from_above),
         *(_sign(drawn, from_above) for drawn in boxes),
     ]
-    return tag("svg", *parts, viewBox=frame, role="img", aria_label=words("view.plan"))
+    return _drawing(parts, frame, words("view.plan"))
 
 
 def elevation(layout: CellLayout, state: CellState, words: Words) -> Markup:
     """The view from the arm to the pallet."""
     stand = layout.pallet
     length, _, deck = stand.size
-    frame = f"{-0.75 * SCALE:.0f} {-CEILING * SCALE:.0f} {1.5 * SCALE:.0f} {(CEILING + 0.1) * SCALE:.0f}"
+    frame = f"-75 {-CEILING * SCALE:.0f} 150 {(CEILING + 0.1) * SCALE:.0f}"
     boxes = sorted(pile_of(state), key=lambda drawn: -drawn.solid.centre[0])
     left, top = from_front((0.0, length / 2, 0.0))
     parts = [
@@ -100,7 +104,11 @@ def elevation(layout: CellLayout, state: CellState, words: Words) -> Markup:
         *(_sign(drawn, from_front) for drawn in boxes),
         _tool(layout, state),
     ]  # fmt: skip
-    return tag("svg", *parts, viewBox=frame, role="img", aria_label=words("view.elevation"))
+    return _drawing(parts, frame, words("view.elevation"))
+
+
+def _drawing(parts: Iterable[Markup | None], frame: str, name: str) -> Markup:
+    return tag("svg", *parts, viewBox=frame, role="img", aria_label=name)
 
 
 def _ground(layout: CellLayout) -> Iterator[Markup]:
@@ -121,8 +129,12 @@ def _ground(layout: CellLayout) -> Iterator[Markup]:
         )  # fmt: skip
         pose = storage.cell_from_storage
         yield tag("polygon", points=_points(map(pose.apply, corners), from_above), cls="storage")
-        x, y = from_above(pose.apply((deep / 2, 0.0, 0.0)))
-        yield tag("text", storage.id.replace("_", " "), x=round(x), y=round(y) + 5, cls="name")
+
+
+def _names(layout: CellLayout, words: Words) -> Iterator[Markup]:
+    for storage in layout.storages:
+        x, y = from_above(storage.cell_from_storage.apply((storage.size[1] / 2, 0.0, 0.0)))
+        yield tag("text", place_name(storage.id, words), x=round(x), y=round(y) + 5, cls="name")
 
 
 def _points(corners: "Iterator[Vector3] | map[Vector3]", view: View) -> str:
@@ -172,7 +184,7 @@ def _arm(layout: CellLayout, state: CellState, view: View) -> Iterator[Markup]:
 def _tool(layout: CellLayout, state: CellState) -> Markup | None:
     """The end of the arm, where it is before the pallet: the arm itself would hide the boxes."""
     flange = posture(layout.robot, state.joints)[-1].origin
-    if flange[0] < NEAR:
+    if flange[0] < NEAR or abs(flange[1]) > ASIDE:
         return None
     x, y = from_front(flange)
     return tag("circle", cx=round(x), cy=round(y), r=11, cls="tool")

@@ -14,6 +14,7 @@ from depal.server.screen.grip import Grip
 from depal.server.screen.panels.marks import SHAPES, TINTS, Mark
 from depal.server.screen.plan import Drawn, pile_of
 from depal.server.screen.posture import LinkPose, Turn, posture
+from depal.server.screen.words import Words, place_name
 
 FLOOR, WOOD, STEEL, ARM, JOINT, FIXED = (
     "#d3d7db", "#b9a88c", "#9aa1a8", "#7d868f", "#59626b", "#8b9299",
@@ -59,9 +60,9 @@ class Shown:
 class CellScene:
     """The picture, kept like the cell."""
 
-    def __init__(self, layout: CellLayout) -> None:
+    def __init__(self, layout: CellLayout, words: Words) -> None:
         """Draws what never moves."""
-        self._layout = layout
+        self._layout, self._words = layout, words
         self._boxes: dict[str, Shown] = {}
         self._held: tuple[str, Object3D] | None = None
         self._grip = Grip()
@@ -101,8 +102,7 @@ class CellScene:
                 self._panel(storage.cell_from_storage, panel)
             back = storage.cell_from_storage.apply((storage.size[1], 0.0, storage.size[2] + 0.1))
             label = LABEL.format(line="#9aa1a8", fill="#f4f5f6", text="#3a4148")
-            ui_text = self.element.text(storage.id.replace("_", " "), label)
-            ui_text.move(*back)
+            self.element.text(place_name(storage.id, self._words), label).move(*back)
         for fixture in self._layout.fixtures:
             self._block(fixture.centre, fixture.size, rows(fixture.pose.rotation), FIXED)
 
@@ -218,7 +218,7 @@ def _times(a: Turn, b: Turn) -> Turn:
 def _along(axis: Iterable[float]) -> Turn:
     """A rotation that carries y, a cylinder's axis, to a direction."""
     x, y, z = axis
-    other = (1.0, 0.0, 0.0) if abs(x) < 0.9 else (0.0, 0.0, 1.0)
+    other = (1.0, 0.0, 0.0) if abs(x) < abs(y) + abs(z) else (0.0, 0.0, 1.0)
     side = _cross((x, y, z), other)
     length = math.hypot(*side)
     u = (side[0] / length, side[1] / length, side[2] / length)

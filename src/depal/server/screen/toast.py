@@ -14,7 +14,7 @@ ENTRANCE = "/sign-in"
 
 def told(message: str) -> None:
     """It is done."""
-    ui.notify(message, position="bottom", classes="toast", icon="check", timeout=4000)
+    ui.notify(message, position="bottom", classes="toast", icon="check", timeout=3000)
 
 
 def refused(message: str) -> None:
@@ -42,13 +42,20 @@ class Guard:
         self._busy = False
         self.problems: tuple[str, ...] = ()
 
-    async def do(self, message: str, command: Callable[..., object], *arguments: object) -> bool:
+    async def do(
+        self,
+        message: str,
+        command: Callable[..., object],
+        *arguments: object,
+        listed: bool = False,
+    ) -> bool:
         """Calls a use case and tells what came of it.
 
         Args:
             message: where it is done; empty to say nothing.
             command: of the desk.
             arguments: for it.
+            listed: whether the caller shows the problems itself.
 
         Returns:
             Whether it was done; else it was refused, or something else is under way.
@@ -62,7 +69,7 @@ class Guard:
             ui.navigate.to(ENTRANCE)
             return False
         except DepalError as error:
-            self._refuse(error)
+            self._refuse(error, listed=listed)
             return False
         finally:
             self._busy = False
@@ -70,10 +77,10 @@ class Guard:
             told(message)
         return True
 
-    def _refuse(self, error: DepalError) -> None:
+    def _refuse(self, error: DepalError, *, listed: bool) -> None:
         found = error.problems if isinstance(error, (Answer, InputError)) else ()
         self.problems = tuple(str(problem) for problem in found)
-        text = str(error).splitlines()[0]
-        if len(self.problems) == 1 and isinstance(error, Answer):
-            text = self.problems[0]
+        if self.problems and listed:
+            return
+        text = ". ".join(self.problems) if self.problems else str(error).splitlines()[0]
         refused(self._said(text))

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from enum import Enum
 
 from depal.server.cellstate import Alarm, CellState, Mode, QuestionState
-from depal.server.screen.said import Said
+from depal.server.screen.said import Said, label_of
 from depal.server.screen.words import Words
 
 RESTART = "restart"
@@ -99,7 +99,7 @@ def first_question(state: CellState) -> QuestionState | None:
 
 def _asked(question: QuestionState, state: CellState, words: Words, said: Said) -> Todo:
     acts = tuple(
-        Act(Verb.ANSWER, said(choice), main=place == 0, about=question.id, choice=choice)
+        Act(Verb.ANSWER, label_of(choice, said), main=place == 0, about=question.id, choice=choice)
         for place, choice in enumerate(question.choices)
     )
     detail = words("todo.waits_for_you") if question.blocks else words("todo.goes_on")
@@ -137,10 +137,14 @@ def _plain(state: CellState, waiting: Sequence[str], words: Words, said: Said) -
         return Todo(Tone.WAITING, "hourglass_top", words("todo.suspended"), said(state.reason))
     if state.mode is Mode.HELD:
         act = Act(Verb.RESUME, words("act.resume"))
-        return Todo(Tone.WAITING, "pause_circle", words("todo.held"), said(state.reason), (act,))
+        return Todo(
+            Tone.WAITING, "pause_circle", words("todo.held"), words("todo.held_how"), (act,)
+        )
     if state.mode is Mode.STOPPED:
         act = Act(Verb.START, words("act.start"))
-        return Todo(Tone.WAITING, "stop_circle", words("todo.stopped"), said(state.reason), (act,))
+        return Todo(
+            Tone.WAITING, "stop_circle", words("todo.stopped"), words("todo.stopped_how"), (act,)
+        )
     if state.mode is Mode.COMPLETE:
         key = "todo.complete_next" if waiting else "todo.complete"
         detail = words("todo.complete_how", stored=state.stored, aside=state.aside)

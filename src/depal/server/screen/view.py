@@ -76,7 +76,7 @@ class CellView:
         self._plan.set_visibility(kind == "plan")
         if kind == "scene" and self._scene is None:
             with self._room:
-                self._scene = CellScene(self._layout)
+                self._scene = CellScene(self._layout, self._words)
                 self._scene.element.props(f'role=img aria-label="{self._words("view.scene_what")}"')
         if self._scene is not None:
             self._scene.element.set_visibility(kind == "scene")

@@ -39,10 +39,11 @@ class Window:
         self._guard = Guard(said_in(language))
         self._sections: dict[str, ui.element] = {}
         self._tabs: dict[str, ui.button] = {}
+        self._end: Callable[[], None] = lambda: None
         self._past: PastView | None = None
         self._setup: SetupView | None = None
         self._rail()
-        with ui.element("main").props("id=main").classes("main"):
+        with ui.element("div").classes("main"):
             html(self._words("app.title"), "h1").classes("unseen")
             for view in VIEWS:
                 self._sections[view] = ui.element("div").classes(f"view view-{view}")
@@ -81,17 +82,19 @@ class Window:
         viewer = self._hub.add(lambda state: self._show(client, state))
         task = background_tasks.create(viewer.run(), name="viewer")
         with client:
-            ui.timer(CHECK, lambda: self._still())
+            ui.timer(CHECK, self._still)
 
-        def gone() -> None:
+        def end() -> None:
             task.cancel()
             self._hub.remove(viewer)
 
-        client.on_delete(gone)
+        self._end = end
+        client.on_delete(end)
 
     async def _still(self) -> None:
         """Whoever is signed in no more sees no more."""
         if await asked(self._desk.me) is None:
+            self._end()
             ui.navigate.to(ENTRANCE)
 
     async def _show(self, client: Client, state: CellState) -> None:
@@ -134,6 +137,5 @@ class Window:
     def _leave() -> None:
         """The session ends, then the page does."""
         ui.run_javascript(
-            f"fetch('{SIGN_OUT}', {{method: 'POST', headers: {{'Content-Type': 'application/json'}}, "
-            "body: '{}'}).finally(() => location.replace('/sign-in'))"
+            f"fetch('{SIGN_OUT}', {{method: 'POST'}}).finally(() => location.replace('{ENTRANCE}'))"
         )

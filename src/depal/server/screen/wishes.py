@@ -7,6 +7,7 @@ from nicegui import ui
 
 from depal.server.cellstate import CellState, RequestState
 from depal.server.roles import WORKERS
+from depal.server.screen.choosing import Choosing
 from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import Markup, tag
 from depal.server.screen.pane import html, put
@@ -139,12 +140,12 @@ class Wishes:
         self.name_products(await asked(self._desk.products))
         self._form.clear()
         repeat = uuid4().hex
-        with self._form, ui.card().classes("form").props("role=dialog"):
+        self._form.props["aria-label"] = words("wish.add_title")
+        with self._form, ui.card().classes("form"):
             html(words("wish.add_title"), "h3")
             options = {f"p {gtin}": name for gtin, name in self._names.items()}
             options |= {f"b {box}": words("wish.box", box=box) for box in self._boxes}
-            what = ui.select(options, label=words("wish.what"), with_input=True)
-            what.props("outlined clearable").classes("wide").mark("what")
+            what = Choosing(options, words("wish.what"), words)
             levels = {level: words(f"wish.{level}") for level in LEVELS}
             level = ui.toggle(levels, value="next").props("no-caps unelevated spread")
             level.classes("wide")
@@ -155,7 +156,7 @@ class Wishes:
                 cancel.props("no-caps unelevated").classes("act")
 
                 async def add() -> None:
-                    wanted = (what.value, LEVELS[level.value or "next"], due.value)
+                    wanted = (what.chosen, LEVELS[level.value or "next"], due.value)
                     await self._add(*wanted, repeat)
 
                 button = ui.button(words("wish.add"), icon="add", color=None, on_click=add)

@@ -1,6 +1,6 @@
 """How boxes, tasks and modes are told apart: a shape and a word, and a muted tint."""
 
-from collections.abc import Mapping, Set
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from enum import Enum
 from types import MappingProxyType
@@ -72,7 +72,7 @@ NODES: Final[Mapping[str, NodeLook]] = MappingProxyType(
         "accomplished": NodeLook(PALETTE[NodeState.ACCOMPLISHED], "✓"),
         "running": NodeLook(PALETTE[NodeState.ENABLED], "▶"),
         "enabled": NodeLook(PALETTE[NodeState.ENABLED], "○"),
-        "disabled": NodeLook(PALETTE[NodeState.DISABLED], "–"),
+        "disabled": NodeLook(PALETTE[NodeState.DISABLED], "·"),
     }
 )
 
@@ -98,7 +98,9 @@ def marks_of(state: CellState) -> dict[str, Mark]:
     return {line.box: _mark(line, state.target, asked, blockers) for line in state.queue}
 
 
-def _mark(line: QueueLine, target: str | None, asked: Set[str], blockers: Set[str]) -> Mark:
+def _mark(
+    line: QueueLine, target: str | None, asked: Collection[str], blockers: Collection[str]
+) -> Mark:
     if line.box in asked:
         return Mark.ASKED
     if line.box == target:

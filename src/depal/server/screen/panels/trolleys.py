@@ -2,7 +2,7 @@
 
 from depal.server.cellstate import CellState, TrolleyState
 from depal.server.screen.markup import Markup, icon, joined, tag
-from depal.server.screen.words import Words
+from depal.server.screen.words import Words, place_name
 
 
 def trolleys(state: CellState, words: Words) -> Markup:
@@ -21,7 +21,7 @@ def _tile(trolley: TrolleyState, words: Words) -> Markup:
         gauge,
         tag(
             "div",
-            tag("strong", trolley.id.replace("_", " ")),
+            tag("strong", place_name(trolley.id, words)),
             tag("span", fill),
             tag("span", icon(sign) if sign else None, words(f"trolley.{key}"), cls="standing"),
         ),

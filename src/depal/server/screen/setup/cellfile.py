@@ -5,7 +5,7 @@ from nicegui import ui
 from depal.domain import CellLayout
 from depal.server.screen.markup import Markup, joined, tag
 from depal.server.screen.pane import html
-from depal.server.screen.words import Words
+from depal.server.screen.words import Words, place_name
 
 
 class CellPart:
@@ -29,11 +29,11 @@ def cell_summary(layout: CellLayout, words: Words) -> Markup:
     shares = [
         ("cell.name", layout.name),
         ("cell.robot", f"{layout.robot.name}, {layout.robot.payload:g} kg"),
-        ("cell.floor", f"{right - left:.1f} × {high - low:.1f} m"),
-        ("cell.pallet", f"{length:.2f} × {width:.2f} × {deck:.3f} m"),
-        ("cell.places", ", ".join(_storage(storage.id) for storage in layout.storages)),
+        ("cell.floor", f"{right - left:.1f} x {high - low:.1f} m"),
+        ("cell.pallet", f"{length:.2f} x {width:.2f} x {deck:.3f} m"),
+        ("cell.places", ", ".join(place_name(storage.id, words) for storage in layout.storages)),
         ("cell.levels", str(len(layout.places))),
-        ("cell.aside", _storage(layout.aside)),
+        ("cell.aside", place_name(layout.aside, words)),
         ("cell.cameras", ", ".join(camera.name for camera in layout.cameras)),
         ("cell.speed", f"{layout.speeds.flange:g} m/s"),
     ]
@@ -41,7 +41,3 @@ def cell_summary(layout: CellLayout, words: Words) -> Markup:
         tag("tr", tag("th", words(key), scope="row"), tag("td", value)) for key, value in shares
     )
     return tag("table", tag("tbody", rows), cls="plain")
-
-
-def _storage(name: str) -> str:
-    return name.replace("_", " ")

@@ -35,7 +35,7 @@ class DeliveriesPart:
 
     async def _bring(self, name: str, content: bytes) -> None:
         done = self._words("done.upload", name=name)
-        await self._guard.do(done, self._desk.upload, name, content)
+        await self._guard.do(done, self._desk.upload, name, content, listed=True)
         put(self._problems, problems(self._guard.problems, self._words))
         await self.open()
 

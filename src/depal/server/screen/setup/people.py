@@ -50,8 +50,8 @@ class PeoplePart:
                     await self._guard.do(done, self._desk.change_role, name, role)
                     await self.open()
 
-            select = ui.select(self._roles, value=person.role.value, on_change=change)
-            select.props("outlined")
+            select = ui.toggle(self._roles, value=person.role.value, on_change=change)
+            select.props("no-caps unelevated")
             select.props["aria-label"] = words("person.role_of", name=name)
             password = ui.button(words("person.password"), color=None)
             password.on_click(lambda: self._password(name))
@@ -63,11 +63,14 @@ class PeoplePart:
     def _add(self) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("person.add")
         with self._form, ui.card().classes("form"):
             html(words("person.add"), "h2").classes("h3")
             name = ui.input(words("person.name")).props("outlined autocomplete=off").classes("wide")
-            role = ui.select(self._roles, value=Role.OPERATOR.value, label=words("person.role"))
-            role.props("outlined").classes("wide")
+            html(words("person.role"), "p")
+            role = ui.toggle(self._roles, value=Role.OPERATOR.value)
+            role.props("no-caps unelevated spread").classes("wide")
+            role.props["aria-label"] = words("person.role")
             password = _secret(words)
 
             async def add() -> None:
@@ -83,6 +86,7 @@ class PeoplePart:
     def _password(self, name: str) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("person.password_of", name=name)
         with self._form, ui.card().classes("form"):
             html(words("person.password_of", name=name), "h2").classes("h3")
             password = _secret(words)
@@ -98,6 +102,7 @@ class PeoplePart:
     def _remove(self, name: str) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("person.remove_sure", name=name)
         with self._form, ui.card().classes("form"):
             html(words("person.remove_sure", name=name), "h2").classes("h3")
 

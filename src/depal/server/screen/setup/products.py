@@ -50,7 +50,7 @@ class ProductsPart:
 
     def _line(self, product: ProductView) -> None:
         words = self._words
-        size = " × ".join(f"{100 * edge:.1f}" for edge in product.size)
+        size = " x ".join(f"{100 * edge:.1f}" for edge in product.size)
         told = words("product.about", gtin=product.gtin, size=size, mass=f"{product.mass:.2f}")
         with ui.element("li").classes("line"):
             picture = ui.element("img").classes("front")
@@ -76,6 +76,7 @@ class ProductsPart:
     def _open(self, product: ProductView) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("product.title", gtin=product.gtin)
         with self._form, ui.card().classes("form"):
             html(words("product.title", gtin=product.gtin), "h2").classes("h3")
             name = ui.input(words("product.name"), value=product.name).props("outlined")

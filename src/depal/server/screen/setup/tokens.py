@@ -66,6 +66,7 @@ class TokensPart:
     def _show(self, secret: str) -> None:
         words = self._words
         self._form.clear()
+        self._form.props["aria-label"] = words("token.once")
         with self._form, ui.card().classes("form"):
             html(words("token.once"), "h2").classes("h3")
             html(words("token.once_how"), "p").classes("quiet")

@@ -30,6 +30,17 @@ def words_of(language: str) -> Words:
     return say
 
 
+def place_name(place: str, words: Words) -> str:
+    """A trolley's, a shelf's or a compartment's name, as people say it: `trolley_2/level_1`."""
+    told = []
+    for part in place.split("/"):
+        kind, _, number = part.rpartition("_")
+        known = kind in {"trolley", "level", "shelf"} and number.isdigit()
+        plain = words("place.shelf_alone") if part == "shelf" else part.replace("_", " ")
+        told.append(words(f"place.{kind}", number=number) if known else plain)
+    return ", ".join(told)
+
+
 def language_of(accepted: str) -> str:
     """The language of a browser.
 

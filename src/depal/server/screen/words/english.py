@@ -25,7 +25,9 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "cell.aside": "Boxes set aside go to",
         "cell.cameras": "Cameras",
         "cell.floor": "Fenced floor",
-        "cell.how": "The cell is described by a file. Change it there; `depal cell check` looks it over.",
+        "cell.how": (
+            "The cell is described by a file. Change it there; `depal cell check` looks it over."
+        ),
         "cell.levels": "Compartments",
         "cell.name": "Name",
         "cell.pallet": "Pallet",
@@ -33,6 +35,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "cell.robot": "Robot, payload",
         "cell.speed": "Greatest speed",
         "cell.title": "This cell",
+        "choosing.found": "{count} found",
         "delivery.about": "{boxes} boxes, uploaded by {by}, {state}",
         "delivery.cancel": "Take {name} out of the queue",
         "delivery.cancelled": "cancelled",
@@ -63,6 +66,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "done.wish_changed": "Request changed: {level}",
         "enter.away": "The cell's computer does not answer.",
         "enter.do": "Sign in",
+        "enter.expected": "expected:",
         "enter.how": "to work with the cell",
         "enter.title": "Sign in",
         "file.problems": "This file cannot be used: {count} problems",
@@ -99,6 +103,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "past.failed": "{label}: failed",
         "past.going": "Started by {label}",
         "past.held": "Held by {label}",
+        "past.no_record": "Run {number} has no record.",
         "past.no_selection": "No box was selected yet.",
         "past.none": "Nothing has run yet.",
         "past.on": "One event on",
@@ -131,6 +136,10 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "picture.none": "The camera has not looked yet.",
         "picture.title": "Camera",
         "picture.what": "The camera's last picture of the pallet, every box that was seen outlined",
+        "place.level": "level {number}",
+        "place.shelf": "shelf {number}",
+        "place.shelf_alone": "shelf",
+        "place.trolley": "trolley {number}",
         "product.about": "{gtin}, {size} cm, {mass} kg",
         "product.change": "Change {name}",
         "product.count": "{count} products",
@@ -168,7 +177,9 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "settings.access": "free requested boxes with the fewest moves",
         "settings.paper": "as in the paper: best score first",
         "settings.policy": "Which box next",
-        "settings.preview": "Not kept yet. It holds from the next selection and the next motion on.",
+        "settings.preview": (
+            "Not kept yet. It holds from the next selection and the next motion on."
+        ),
         "settings.same": "This is how the cell works now.",
         "settings.speed": "Speed of the arm",
         "settings.speed_is": "Speed of the arm: {speed} % of full speed",
@@ -189,12 +200,16 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "summary.rate": "{rate} boxes/h",
         "summary.stored": "{stored} of {boxes} stored",
         "todo.aborted": "Safety stop: go to the cell",
-        "todo.aborted_how": "Make sure that nobody is inside and release the stop at the cell's own panel. It cannot be released from here.",
+        "todo.aborted_how": (
+            "Make sure that nobody is inside and release the stop at the cell's own panel. "
+            "It cannot be released from here."
+        ),
         "todo.complete": "Take the pallet away",
         "todo.complete_how": "The pallet is empty: {stored} boxes stored, {aside} set aside.",
         "todo.complete_next": "Put the next pallet in, then press Start",
         "todo.goes_on": "The cell goes on meanwhile.",
         "todo.held": "Press Resume to go on",
+        "todo.held_how": "Nothing new begins before that.",
         "todo.idle": "Upload a delivery",
         "todo.idle_how": "No delivery waits. Upload its delivery note to begin.",
         "todo.idle_next": "Put the pallet in, then press Start",
@@ -204,6 +219,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "todo.moving": "Box {box} is being moved.",
         "todo.nothing": "Nothing to do",
         "todo.stopped": "Press Start to go on",
+        "todo.stopped_how": "The last box was finished.",
         "todo.stopping": "Stopping after this box",
         "todo.stopping_how": "The box in the gripper is the last one.",
         "todo.suspended": "Waiting",
@@ -212,7 +228,9 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "token.add": "Make a token",
         "token.days": "Good for days",
         "token.expires": "good until {when}",
-        "token.how": "A store's own system signs in with a token. It may send requests and read events.",
+        "token.how": (
+            "A store's own system signs in with a token. It may send requests and read events."
+        ),
         "token.kept": "I have kept it",
         "token.name": "What it is for",
         "token.none": "No system has a token.",
@@ -252,6 +270,6 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "wish.this_one": "no box before it, about {minutes} min",
         "wish.title": "Requests",
         "wish.unknown": "not seen yet",
-        "wish.what": "Product or box",
+        "wish.what": "Search a product or a box",
     }
 )

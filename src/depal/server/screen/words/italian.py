@@ -25,7 +25,9 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "cell.aside": "Le scatole messe da parte vanno in",
         "cell.cameras": "Telecamere",
         "cell.floor": "Area recintata",
-        "cell.how": "La cella è descritta da un file. Si cambia lì; `depal cell check` lo controlla.",
+        "cell.how": (
+            "La cella è descritta da un file. Si cambia lì; `depal cell check` lo controlla."
+        ),
         "cell.levels": "Scomparti",
         "cell.name": "Nome",
         "cell.pallet": "Pallet",
@@ -33,6 +35,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "cell.robot": "Robot, portata",
         "cell.speed": "Velocità massima",
         "cell.title": "Questa cella",
+        "choosing.found": "{count} trovati",
         "delivery.about": "{boxes} scatole, caricata da {by}, {state}",
         "delivery.cancel": "Togli {name} dalla coda",
         "delivery.cancelled": "annullata",
@@ -63,6 +66,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "done.wish_changed": "Richiesta cambiata: {level}",
         "enter.away": "Il computer della cella non risponde.",
         "enter.do": "Entra",
+        "enter.expected": "serve:",
         "enter.how": "per lavorare con la cella",
         "enter.title": "Entra",
         "file.problems": "Questo file non si può usare: {count} problemi",
@@ -99,6 +103,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "past.failed": "{label}: non riuscito",
         "past.going": "Avviata da {label}",
         "past.held": "In pausa da {label}",
+        "past.no_record": "Il lavoro {number} non ha un diario.",
         "past.no_selection": "Nessuna scatola ancora scelta.",
         "past.none": "Ancora nessun lavoro.",
         "past.on": "Un evento avanti",
@@ -130,7 +135,13 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "person.you": "tu",
         "picture.none": "La telecamera non ha ancora guardato.",
         "picture.title": "Telecamera",
-        "picture.what": "L'ultima immagine del pallet, con il contorno di ogni scatola riconosciuta",
+        "picture.what": (
+            "L'ultima immagine del pallet, con il contorno di ogni scatola riconosciuta"
+        ),
+        "place.level": "ripiano {number}",
+        "place.shelf": "scaffale {number}",
+        "place.shelf_alone": "scaffale",
+        "place.trolley": "carrello {number}",
         "product.about": "{gtin}, {size} cm, {mass} kg",
         "product.change": "Cambia {name}",
         "product.count": "{count} prodotti",
@@ -168,7 +179,9 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "settings.access": "libera le scatole richieste con meno mosse",
         "settings.paper": "come nell'articolo: prima il punteggio migliore",
         "settings.policy": "Quale scatola dopo",
-        "settings.preview": "Non ancora salvato. Vale dalla prossima scelta e dal prossimo movimento.",
+        "settings.preview": (
+            "Non ancora salvato. Vale dalla prossima scelta e dal prossimo movimento."
+        ),
         "settings.same": "Così lavora la cella adesso.",
         "settings.speed": "Velocità del braccio",
         "settings.speed_is": "Velocità del braccio: {speed} % della massima",
@@ -189,12 +202,16 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "summary.rate": "{rate} scatole/h",
         "summary.stored": "{stored} di {boxes} a posto",
         "todo.aborted": "Arresto di sicurezza: vai alla cella",
-        "todo.aborted_how": "Controlla che dentro non ci sia nessuno e sblocca l'arresto dal pannello della cella. Da qui non si può sbloccare.",
+        "todo.aborted_how": (
+            "Controlla che dentro non ci sia nessuno e sblocca l'arresto dal pannello della "
+            "cella. Da qui non si può sbloccare."
+        ),
         "todo.complete": "Porta via il pallet",
         "todo.complete_how": "Il pallet è vuoto: {stored} scatole a posto, {aside} messe da parte.",
         "todo.complete_next": "Metti il prossimo pallet, poi premi Avvia",
         "todo.goes_on": "Intanto la cella continua.",
         "todo.held": "Premi Riprendi per continuare",
+        "todo.held_how": "Prima non comincia niente.",
         "todo.idle": "Carica una consegna",
         "todo.idle_how": "Nessuna consegna in attesa. Carica la bolla per cominciare.",
         "todo.idle_next": "Metti il pallet, poi premi Avvia",
@@ -204,6 +221,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "todo.moving": "Si sta spostando la scatola {box}.",
         "todo.nothing": "Niente da fare",
         "todo.stopped": "Premi Avvia per continuare",
+        "todo.stopped_how": "L'ultima scatola è finita.",
         "todo.stopping": "Si ferma dopo questa scatola",
         "todo.stopping_how": "La scatola nella pinza è l'ultima.",
         "todo.suspended": "In attesa",
@@ -212,7 +230,9 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "token.add": "Crea un token",
         "token.days": "Valido per giorni",
         "token.expires": "valido fino a {when}",
-        "token.how": "Il sistema del negozio entra con un token. Può mandare richieste e leggere eventi.",
+        "token.how": (
+            "Il sistema del negozio entra con un token. Può mandare richieste e leggere eventi."
+        ),
         "token.kept": "L'ho copiato",
         "token.name": "A che cosa serve",
         "token.none": "Nessun sistema ha un token.",
@@ -252,6 +272,6 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "wish.this_one": "nessuna scatola prima, circa {minutes} min",
         "wish.title": "Richieste",
         "wish.unknown": "non ancora vista",
-        "wish.what": "Prodotto o scatola",
+        "wish.what": "Cerca un prodotto o una scatola",
     }
 )
