@@ -206,7 +206,9 @@ class ScriptedCell:
             for line in best
         )
         name = target.box if target is not None else None
-        self._tell(queue=told, target=name, explanation="the best score of all boxes that can be grasped")
+        self._tell(
+            queue=told, target=name, explanation="the best score of all boxes that can be grasped"
+        )
         self._estimate()
 
     def _pulls(self, lines: list[QueueLine]) -> dict[str, float]:
@@ -315,7 +317,9 @@ class ScriptedCell:
     def _ask(self, name: str, text: str, choices: tuple[str, ...], mode: Mode) -> None:
         self._answer = None
         self._wake.clear()
-        question = QuestionState(f"{self._state.run}/{name}", text, choices, name.split("/")[1], self._state.at)
+        question = QuestionState(
+            f"{self._state.run}/{name}", text, choices, name.split("/")[1], self._state.at
+        )
         if self.records is not None and self._state.run is not None:
             self.records.asked(self._state.run, question)
         alarm = Alarm(question.id, text, "Answer the question.", self._state.at)
@@ -358,4 +362,3 @@ def _trees(box: str, phase: int) -> tuple[TaskTree, ...]:
         TaskNode(f"leave({box})", 1, state(1), True, "waits for take" if phase == 0 else ""),
     )
     return (TaskTree(1, 0.8, nodes),)
-
