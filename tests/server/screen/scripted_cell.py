@@ -206,7 +206,9 @@ class ScriptedCell:
             for line in best
         )
         name = target.box if target is not None else None
-        self._tell(queue=told, target=name, explanation="the best score of all boxes that can be grasped")
+        self._tell(
+            queue=told, target=name, explanation="the best score of all boxes that can be grasped"
+        )
         self._estimate()
 
     def _pulls(self, lines: list[QueueLine]) -> dict[str, float]:

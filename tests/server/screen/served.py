@@ -1,8 +1,9 @@
-"""Serves API and screen over a scripted cell: `python served.py FOLDER PORT STEP`.
+"""Serves API and screen over a scripted cell: `python served.py FOLDER STEP [PORT]`.
 
 Prints the first link once it answers, as `depal serve` does.
 """
 
+import socket
 import sys
 from pathlib import Path
 
@@ -26,15 +27,27 @@ def site_in(folder: Path, step: float) -> Site:
     return Site.over(database, cell, Feed(folder / "runs"), chance, folder / "runs")
 
 
-def main(folder: Path, port: int, step: float) -> None:
+class Announcing(uvicorn.Server):
+    """Says where it is once it answers."""
+
+    code = ""
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """Listens, then says so."""
+        await super().startup(sockets)
+        port = self.servers[0].sockets[0].getsockname()[1]
+        print(f"http://127.0.0.1:{port}/first?code={self.code}", flush=True)  # noqa: T201
+
+
+def main(folder: Path, step: float, port: int) -> None:
     """Serves until it is ended."""
     site, exposure = site_in(folder, step), Exposure()
     app = build_app(site, exposure)
     attach(app, site, exposure)
-    code = site.codes.make()
-    print(f"http://127.0.0.1:{port}/first?code={code}", flush=True)  # noqa: T201 - it is a command
-    uvicorn.run(app, host="127.0.0.1", port=port, log_level="warning")
+    server = Announcing(uvicorn.Config(app, "127.0.0.1", port, log_level="warning"))
+    server.code = site.codes.make()
+    server.run()
 
 
 if __name__ == "__main__":
-    main(Path(sys.argv[1]), int(sys.argv[2]), float(sys.argv[3]))
+    main(Path(sys.argv[1]), float(sys.argv[2]), int(sys.argv[3]) if len(sys.argv) > 3 else 0)

@@ -39,11 +39,13 @@ class Choosing:
         wanted = (self._search.value or "").casefold()
         found = [key for key, name in self._options.items() if wanted in f"{name} {key}".casefold()]
         put(self._found, self._words("choosing.found", count=len(found)))
-        self._list.clear()
-        self._buttons = {}
+        shown = set(found[:SHOWN])
+        for key, button in self._buttons.items():
+            button.set_visibility(key in shown)
         with self._list:
             for key in found[:SHOWN]:
-                self._button(key)
+                if key not in self._buttons:
+                    self._button(key)
 
     def _button(self, key: str) -> None:
         button = ui.button(self._options[key], color=None, on_click=lambda: self._choose(key))

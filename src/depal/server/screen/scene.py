@@ -2,16 +2,16 @@
 
 import math
 from collections.abc import Iterable
-from dataclasses import dataclass
 
 from nicegui import ui
 from nicegui.elements.scene.scene_object3d import Object3D
 
 from depal.domain import Capsule, CellLayout
 from depal.geometry import OrientedBox, Pose, Vector3
-from depal.server.cellstate import CellState, Solid
+from depal.server.cellstate import CellState
+from depal.server.screen.boxshape import BoxShape, label_look, turn_of
 from depal.server.screen.grip import Grip
-from depal.server.screen.panels.marks import SHAPES, TINTS, Mark
+from depal.server.screen.panels.marks import TINTS, Mark
 from depal.server.screen.plan import Drawn, pile_of
 from depal.server.screen.posture import LinkPose, Turn, posture
 from depal.server.screen.words import Words, place_name
@@ -21,11 +21,6 @@ FLOOR, WOOD, STEEL, ARM, JOINT, FIXED = (
 )  # fmt: skip
 BACKGROUND = "#e6e9ec"
 
-LABEL = (
-    "font:600 14px/1.2 Roboto,system-ui,sans-serif;padding:1px 6px;border-radius:4px;"
-    "border:1.5px solid {line};background:{fill};color:{text};white-space:nowrap"
-)
-
 LINKS = 7
 """The base and six more; after them comes the tool."""
 
@@ -33,28 +28,9 @@ EYE, AIM = (-2.3, -1.7, 4.5), (0.75, 0.0, 0.35)
 """Where one looks from, and at what [m]."""
 
 
-def turned(yaw: float) -> Turn:
-    """A rotation about z, by rows."""
-    c, s = math.cos(yaw), math.sin(yaw)
-    return (c, -s, 0.0), (s, c, 0.0), (0.0, 0.0, 1.0)
-
-
 def rows(turn: Iterable[Iterable[float]]) -> list[list[float]]:
     """As the browser wants it."""
     return [[round(value, 5) for value in row] for row in turn]
-
-
-@dataclass(slots=True)
-class Shown:
-    """A box in the picture.
-
-    Attributes:
-        drawn: as it is now.
-        group: with all that belongs to it.
-    """
-
-    drawn: Drawn
-    group: Object3D
 
 
 class CellScene:
@@ -63,7 +39,7 @@ class CellScene:
     def __init__(self, layout: CellLayout, words: Words) -> None:
         """Draws what never moves."""
         self._layout, self._words = layout, words
-        self._boxes: dict[str, Shown] = {}
+        self._boxes: dict[str, BoxShape] = {}
         self._held: tuple[str, Object3D] | None = None
         self._grip = Grip()
         self._joints: tuple[float, ...] | None = None
@@ -91,7 +67,7 @@ class CellScene:
         (left, low), (right, high) = self._layout.floor
         middle = ((left + right) / 2, (low + high) / 2, -0.02)
         size = (right - left, high - low, 0.04)
-        self._block(middle, size, rows(turned(0.0)), FLOOR)
+        self._block(middle, size, turn_of(0.0), FLOOR)
         pallet = self._layout.pallet
         length, width, deck = pallet.size
         centre = pallet.cell_from_pallet.apply((length / 2, width / 2, -deck / 2))
@@ -100,9 +76,9 @@ class CellScene:
         for storage in self._layout.storages:
             for panel in storage.panels:
                 self._panel(storage.cell_from_storage, panel)
-            back = storage.cell_from_storage.apply((storage.size[1], 0.0, storage.size[2] + 0.1))
-            label = LABEL.format(line="#9aa1a8", fill="#f4f5f6", text="#3a4148")
-            self.element.text(place_name(storage.id, self._words), label).move(*back)
+            before = storage.cell_from_storage.apply((-0.15, 0.0, 0.05))
+            label = label_look("#9aa1a8", "#f4f5f6", "#3a4148")
+            self.element.text(place_name(storage.id, self._words), label).move(*before)
         for fixture in self._layout.fixtures:
             self._block(fixture.centre, fixture.size, rows(fixture.pose.rotation), FIXED)
 
@@ -163,24 +139,15 @@ class CellScene:
         wanted = {f"pile {drawn.name}": drawn for drawn in pile_of(state)}
         for box in state.standing:
             wanted[f"place {box.box}"] = Drawn("", box.solid, Mark.PLAIN)
-        for key in [key for key in self._boxes if self._boxes[key].drawn != wanted.get(key)]:
-            self._boxes.pop(key).group.delete()
+        for key in [key for key in self._boxes if key not in wanted]:
+            self._boxes.pop(key).delete()
         for key, drawn in wanted.items():
-            if key not in self._boxes:
-                self._boxes[key] = Shown(drawn, self._draw_box(drawn))
-
-    def _draw_box(self, drawn: Drawn) -> Object3D:
-        solid, tint = drawn.solid, TINTS[drawn.mark]
-        with self.element.group() as group:
-            self.element.box(*solid.size).material(tint.fill)
-            self.element.box(*solid.size, wireframe=True).material(tint.line)
-            if drawn.mark is not Mark.PLAIN:
-                x, y, z = (edge + 0.015 for edge in solid.size)
-                self.element.box(x, y, z, wireframe=True).material(tint.line)
-                look = LABEL.format(line=tint.line, fill=tint.fill, text=tint.text)
-                word = f"{SHAPES[drawn.mark]} {drawn.name}"
-                self.element.text(word, look).move(-solid.size[0] / 2, 0.0, solid.size[2] / 4)
-        return group.move(*solid.centre).rotate_R(rows(turned(solid.yaw)))
+            shape = self._boxes.get(key)
+            if shape is not None and shape.becomes(drawn):
+                continue
+            self._boxes[key] = BoxShape(self.element, drawn)
+            if shape is not None:
+                shape.delete()
 
     def _show_held(self, state: CellState, poses: tuple[LinkPose, ...]) -> None:
         """A box in the gripper hangs on the flange as it did when it was taken."""
@@ -195,16 +162,10 @@ class CellScene:
         with flange, self.element.group() as group:
             self.element.box(*held.size).material(tint.fill)
             self.element.box(*held.size, wireframe=True).material(tint.line)
-            look = LABEL.format(line=tint.line, fill=tint.fill, text=tint.text)
+            look = label_look(tint.line, tint.fill, tint.text)
             self.element.text(held.box, look).move(0.0, 0.0, held.size[2] / 2)
         group.move(*held.origin).rotate_R(rows(held.turn))
         self._held = (held.box, group)
-
-
-def solid_of(box: OrientedBox) -> Solid:
-    """An upright box as the state tells it."""
-    (c, _, _), (s, _, _), _ = box.pose.rotation
-    return Solid(box.centre, box.size, math.atan2(s, c))
 
 
 def _times(a: Turn, b: Turn) -> Turn:

@@ -24,10 +24,16 @@ def level_of(priority: float) -> str:
     return min(LEVELS, key=lambda level: abs(LEVELS[level] - priority))
 
 
-def estimate(request: RequestState, words: Words) -> str:
-    """When it will come, as it looks now."""
+def estimate(request: RequestState, words: Words, *, seen: bool) -> str:
+    """When it will come, as it looks now.
+
+    Args:
+        request: that waits.
+        words: of the screen.
+        seen: whether what is wanted stands on the pallet.
+    """
     if request.boxes_before is None or request.minutes is None:
-        return words("wish.unknown")
+        return words("wish.counting" if seen else "wish.unknown")
     minutes = max(round(request.minutes), 1)
     if request.boxes_before == 0:
         return words("wish.this_one", minutes=minutes)
@@ -53,10 +59,10 @@ class Row:
                 )
                 self._drop.classes("small")
 
-    def show(self, request: RequestState, name: str, now: float) -> None:
+    def show(self, request: RequestState, name: str, now: float, *, seen: bool) -> None:
         """As it is now."""
         self._request = request
-        put(self._told, _told(request, name, now, self._words))
+        put(self._told, _told(request, name, now, self._words, seen=seen))
         if self._desk.who.role in WORKERS:
             level = self._words(f"wish.{level_of(request.priority)}")
             self._level.set_text(level)
@@ -78,13 +84,13 @@ class Row:
         await self._guard.do(done, self._desk.cancel_request, self._key)
 
 
-def _told(request: RequestState, name: str, now: float, words: Words) -> Markup:
+def _told(request: RequestState, name: str, now: float, words: Words, *, seen: bool) -> Markup:
     due = None
     if request.due is not None:
         left = round((request.due - now) / 60)
         key = "wish.due" if left >= 0 else "wish.late"
         due = tag("span", words(key, minutes=abs(left)), cls="due" if left >= 0 else "due bad")
-    waits = tag("span", estimate(request, words))
+    waits = tag("span", estimate(request, words, seen=seen))
     return tag("div", tag("strong", name), tag("span", waits, due, cls="when"))
 
 
@@ -115,6 +121,7 @@ class Wishes:
 
     def show(self, state: CellState) -> None:
         """As the state is; rows stay, so that nobody loses the place."""
+        gtins = {line.gtin for line in state.queue if line.gtin is not None}
         self._boxes = tuple(line.box for line in state.queue)
         self._none.set_visibility(not state.requests)
         known = {request.key for request in state.requests}
@@ -128,7 +135,8 @@ class Wishes:
                 self._rows[request.key] = row
             if self._list.default_slot.children[place] is not row.element:
                 row.element.move(target_index=place)
-            row.show(request, self._name(request), state.at)
+            seen = request.gtin in gtins or request.box in self._boxes
+            row.show(request, self._name(request), state.at, seen=seen)
 
     def _name(self, request: RequestState) -> str:
         if request.box is not None:
