@@ -39,6 +39,7 @@ class ScriptedCell:
     """See `depal.server.cell.Cell`; its run asks one question and wants one trolley exchanged."""
 
     def __init__(self, step: float = STEP) -> None:
+        """Nothing yet."""
         self.records: Records | None = None
         self._layout = shipped_cell("default")
         self._step = step
@@ -55,7 +56,15 @@ class ScriptedCell:
             reason="No delivery is started.",
             joints=self._layout.robot.parked,
             trolleys=tuple(
-                TrolleyState(s.id, True, 0, 0.0, False, False, s.id == self._layout.aside)
+                TrolleyState(
+                    s.id,
+                    present=True,
+                    boxes=0,
+                    fill=0.0,
+                    full=False,
+                    exchanging=False,
+                    aside=s.id == self._layout.aside,
+                )
                 for s in self._layout.storages
             ),
         )
@@ -63,16 +72,20 @@ class ScriptedCell:
 
     @property
     def layout(self) -> CellLayout:
+        """The cell."""
         return self._layout
 
     def state(self) -> CellState:
+        """What was told last."""
         return self._state
 
     def watch(self, watcher: Watcher) -> Callable[[], None]:
+        """Calls a function with every new state."""
         self._watchers.append(watcher)
         return lambda: self._watchers.remove(watcher)
 
     def start(self, order: Order | None = None) -> None:
+        """Begins, or goes on."""
         with self._lock:
             if self._state.mode in {Mode.STOPPED, Mode.HELD} and order is None:
                 self._tell(mode=Mode.EXECUTE, reason="Boxes are being moved.", stopping=False)
@@ -84,26 +97,34 @@ class ScriptedCell:
         threading.Thread(target=self._run, args=(order,), daemon=True).start()
 
     def hold(self, source: str) -> None:
+        """Nothing new begins."""
+        del source
         with self._lock:
             if self._state.mode is not Mode.EXECUTE:
                 raise Refusal(f"the cell is {self._state.mode.value} already")
             self._tell(mode=Mode.HELD, reason="Held by a person. Press Resume to go on.")
 
     def resume(self, source: str) -> None:
+        """Goes on."""
+        del source
         with self._lock:
             if self._state.mode is Mode.EXECUTE and not self._state.stopping:
                 raise Refusal("the cell is working")
             self._tell(mode=Mode.EXECUTE, reason="Boxes are being moved.", stopping=False)
 
     def stop_after_box(self, source: str) -> None:
+        """Finishes the box in hand."""
+        del source
         self._tell(stopping=True)
 
     def add_request(self, key: str, request: Request) -> None:
+        """One more."""
         with self._lock:
             self._requests[key] = request
             self._estimate()
 
     def change_request(self, key: str, request: Request) -> None:
+        """Another priority."""
         with self._lock:
             if key not in self._requests:
                 raise Refusal(f"request {key} has been served already")
@@ -111,12 +132,14 @@ class ScriptedCell:
             self._estimate()
 
     def cancel_request(self, key: str) -> None:
+        """Not wanted any more."""
         with self._lock:
             if self._requests.pop(key, None) is None:
                 raise Refusal(f"request {key} has been served already")
             self._estimate()
 
     def answer(self, question: str, choice: str, source: str) -> None:
+        """The first answer counts."""
         with self._lock:
             asked = next((q for q in self._state.questions if q.id == question), None)
             if asked is None:
@@ -130,13 +153,16 @@ class ScriptedCell:
             self._wake.set()
 
     def set(self, settings: Settings) -> None:
+        """Other settings."""
         self._settings = settings
         self._tell(w=settings.w, speed=settings.speed, policy=settings.policy)
 
     def why(self, box: str) -> str:
+        """What the last selection said."""
         return next(line.reason for line in self._state.queue if line.box == box)
 
     def picture(self) -> bytes:
+        """The pile as a camera might see it."""
         return self._pictures[-1]
 
     # The run
@@ -304,7 +330,7 @@ class ScriptedCell:
 
     def _travel(self, one: tuple[float, ...], other: tuple[float, ...]) -> None:
         for part in range(1, 6):
-            while self._state.mode not in {Mode.EXECUTE}:
+            while self._state.mode is not Mode.EXECUTE:
                 self._pause()
             share = part / 5
             joints = tuple(a + (b - a) * share for a, b in zip(one, other, strict=True))
@@ -354,11 +380,14 @@ def _on(upper: Solid, lower: Solid) -> bool:
 
 def _trees(box: str, phase: int) -> tuple[TaskTree, ...]:
     def state(at: int) -> str:
+        """What was told last."""
         return "accomplished" if phase > at else "running" if phase == at else "disabled"
 
     nodes = (
         TaskNode(f"store({box})", 0, "enabled" if phase < 2 else "accomplished", concrete=False),
         TaskNode(f"take({box})", 1, state(0), concrete=True),
-        TaskNode(f"leave({box})", 1, state(1), True, "waits for take" if phase == 0 else ""),
+        TaskNode(
+            f"leave({box})", 1, state(1), concrete=True, why="waits for take" if phase == 0 else ""
+        ),
     )
     return (TaskTree(1, 0.8, nodes),)

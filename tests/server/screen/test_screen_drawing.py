@@ -28,6 +28,7 @@ angles = st.floats(-2.0, 2.0)
 
 
 def test_blockers_are_those_of_requested_boxes_and_theirs() -> None:
+    """Blockers are those of requested boxes and theirs."""
     state = state_with(
         line("a", requested=True, blockers=("b",)),
         line("b", blockers=("c",)),
@@ -38,11 +39,13 @@ def test_blockers_are_those_of_requested_boxes_and_theirs() -> None:
 
 
 def test_a_cycle_of_blockers_ends() -> None:
+    """A cycle of blockers ends."""
     state = state_with(line("a", requested=True, blockers=("b",)), line("b", blockers=("a",)))
     assert blockers_of(state) == {"a", "b"}
 
 
 def test_the_most_important_mark_wins() -> None:
+    """The most important mark wins."""
     asked = QuestionState("q", "?", ("yes",), "a", 0.0)
     lines = (line("a", requested=True), line("b", requested=True, blockers=("c",)), line("c"))
     marks = marks_of(state_with(*lines, target="b", questions=(asked,)))
@@ -51,6 +54,7 @@ def test_the_most_important_mark_wins() -> None:
 
 
 def test_no_mark_lives_by_its_colour_alone() -> None:
+    """No mark lives by its colour alone."""
     shapes = [SHAPES[mark] for mark in Mark if mark is not Mark.PLAIN]
     assert len(set(shapes)) == len(shapes)
     assert all(shapes)
@@ -62,6 +66,7 @@ def test_no_mark_lives_by_its_colour_alone() -> None:
 
 @given(st.tuples(angles, angles, angles, angles, angles, angles))
 def test_links_hang_together(joints: tuple[float, ...]) -> None:
+    """Links hang together."""
     geometry = LAYOUT.robot.geometry
     poses = posture(LAYOUT.robot, joints)
     assert len(poses) == 8
@@ -71,6 +76,7 @@ def test_links_hang_together(joints: tuple[float, ...]) -> None:
 
 
 def test_an_arm_that_tells_no_joints_is_parked() -> None:
+    """An arm that tells no joints is parked."""
     assert posture(LAYOUT.robot, ()) == posture(LAYOUT.robot, LAYOUT.robot.parked)
 
 
@@ -78,6 +84,7 @@ def test_an_arm_that_tells_no_joints_is_parked() -> None:
 def test_a_held_box_seen_from_the_flange_stands_where_it_stood(
     joints: tuple[float, ...], yaw: float
 ) -> None:
+    """A held box seen from the flange stands where it stood."""
     flange = posture(LAYOUT.robot, joints)[-1]
     solid = Solid((1.5, 0.2, 0.7), (0.3, 0.4, 0.2), yaw)
     held = held_of("b1", solid, flange)
@@ -85,6 +92,7 @@ def test_a_held_box_seen_from_the_flange_stands_where_it_stood(
 
 
 def test_a_grip_remembers_where_the_box_stood_before_it_was_taken() -> None:
+    """A grip remembers where the box stood before it was taken."""
     grip, flange = Grip(), posture(LAYOUT.robot, ())[-1]
     assert grip.follow(state_with(line("b1")), flange) is None
     held = grip.follow(state_with(held="b1"), flange)
@@ -96,6 +104,7 @@ def test_a_grip_remembers_where_the_box_stood_before_it_was_taken() -> None:
 
 @given(st.floats(-3, 3))
 def test_corners_are_as_far_from_the_middle_as_the_size_says(yaw: float) -> None:
+    """Corners are as far from the middle as the size says."""
     solid = Solid((1.0, 2.0, 3.0), (0.3, 0.4, 0.2), yaw)
     half = math.hypot(0.15, 0.2, 0.1)
     for corner in corners_of(solid):
@@ -103,11 +112,13 @@ def test_corners_are_as_far_from_the_middle_as_the_size_says(yaw: float) -> None
 
 
 def test_the_plan_is_seen_from_behind_the_arm() -> None:
+    """The plan is seen from behind the arm."""
     x, y = from_above((2.0, 1.0, 0.0))
     assert (x, y) == (-100.0, -200.0)
 
 
 def test_the_plan_shows_every_box_and_names_the_marked_ones() -> None:
+    """The plan shows every box and names the marked ones."""
     state = state_with(line("b1"), line("b2"), target="b2", held="b3")
     drawn = both(LAYOUT, state, WORDS)
     assert drawn.count('class="box"') == 4
@@ -117,7 +128,8 @@ def test_the_plan_shows_every_box_and_names_the_marked_ones() -> None:
 
 
 def test_a_trolley_that_needs_hands_says_so() -> None:
-    wanted = TrolleyState("trolley_2", True, 9, 0.83, True, True)
+    """A trolley that needs hands says so."""
+    wanted = TrolleyState("trolley_2", present=True, boxes=9, fill=0.83, full=True, exchanging=True)
     told = trolleys(state_with(trolleys=(wanted,)), WORDS)
     assert WORDS("trolley.exchange") in told
     assert "83 %" in told
@@ -125,6 +137,7 @@ def test_a_trolley_that_needs_hands_says_so() -> None:
 
 
 def test_the_summary_says_how_far_it_is() -> None:
+    """The summary says how far it is."""
     told = summary(state_with(stored=6, aside=1, lost=1, boxes=12, rate=418.0), WORDS)
     assert "6 of 12 stored" in told
     assert "8 of 12 boxes" in told
@@ -134,6 +147,7 @@ def test_the_summary_says_how_far_it_is() -> None:
 
 
 def test_a_task_that_does_not_run_says_why() -> None:
+    """A task that does not run says why."""
     nodes = (
         TaskNode("store(b1)", 0, "enabled", concrete=False),
         TaskNode("leave(b1)", 1, "disabled", concrete=True, why="b1.taken is not set"),

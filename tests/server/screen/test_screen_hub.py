@@ -13,24 +13,30 @@ class Naps:
     """Sleep that ends when the test says so."""
 
     def __init__(self) -> None:
+        """Nothing yet."""
         self.asked: list[float] = []
         self.over = asyncio.Event()
 
     async def __call__(self, seconds: float) -> None:
+        """Waits for the test."""
         self.asked.append(seconds)
         await self.over.wait()
 
 
 async def settled() -> None:
+    """Everything that can run now has run."""
     for _ in range(5):
         await asyncio.sleep(0)
 
 
 def news(cell: FakeCell, run: int) -> None:
+    """The cell tells of another run."""
     cell.tell(replace(cell.told, run=run))
 
 
 def test_a_viewer_sees_the_present_and_then_only_the_newest() -> None:
+    """A viewer sees the present and then only the newest."""
+
     async def scenario() -> list[int | None]:
         cell, naps, shown = FakeCell(shipped_cell("default")), Naps(), []
 
@@ -55,10 +61,13 @@ def test_a_viewer_sees_the_present_and_then_only_the_newest() -> None:
 
 
 def test_the_cell_is_watched_once_and_not_when_nobody_looks() -> None:
+    """The cell is watched once and not when nobody looks."""
+
     class Watched(FakeCell):
         watching = 0
 
         def watch(self, watcher):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
+            """Calls a function with every new state."""
             self.watching += 1
             end = super().watch(watcher)
 
@@ -87,6 +96,8 @@ def test_the_cell_is_watched_once_and_not_when_nobody_looks() -> None:
 
 
 def test_news_from_the_cells_thread_arrive_on_the_viewers_loop() -> None:
+    """News from the cells thread arrive on the viewers loop."""
+
     async def scenario() -> tuple[int | None, bool]:
         cell, seen = FakeCell(shipped_cell("default")), asyncio.Queue[tuple[int | None, bool]]()
         loop = asyncio.get_running_loop()
@@ -106,6 +117,7 @@ def test_news_from_the_cells_thread_arrive_on_the_viewers_loop() -> None:
 
 
 def test_news_after_the_loop_has_ended_are_dropped() -> None:
+    """News after the loop has ended are dropped."""
     cell = FakeCell(shipped_cell("default"))
 
     async def scenario() -> None:

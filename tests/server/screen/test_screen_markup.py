@@ -34,20 +34,24 @@ class Reader(HTMLParser):
     """What a browser would make of it."""
 
     def __init__(self) -> None:
+        """Nothing yet."""
         super().__init__()
         self.tags: list[str] = []
         self.names: set[str] = set()
         self.texts: list[str] = []
 
     def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        """An element begins."""
         self.tags.append(tag)
         self.names.update(name for name, _ in attrs)
 
     def handle_data(self, data: str) -> None:
+        """A text."""
         self.texts.append(data)
 
 
 def read(markup: str) -> Reader:
+    """Markup as a browser reads it."""
     reader = Reader()
     reader.feed(markup)
     reader.close()
@@ -56,6 +60,7 @@ def read(markup: str) -> Reader:
 
 @given(st.text(alphabet=st.characters(exclude_categories=["Cs", "Cc"])))
 def test_text_comes_out_as_it_went_in_and_makes_no_element(foreign: str) -> None:
+    """Text comes out as it went in and makes no element."""
     reader = read(tag("p", foreign, title=foreign))
     assert reader.tags == ["p"]
     assert reader.names == {"title"}
@@ -63,6 +68,7 @@ def test_text_comes_out_as_it_went_in_and_makes_no_element(foreign: str) -> None
 
 
 def test_markup_is_not_escaped_twice() -> None:
+    """Markup is not escaped twice."""
     inner = tag("b", "a < b")
     assert tag("p", inner) == "<p><b>a &lt; b</b></p>"
     assert text(inner) is inner
@@ -70,6 +76,7 @@ def test_markup_is_not_escaped_twice() -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_product_name_is_a_text_in_the_queue(name: str) -> None:
+    """A hostile product name is a text in the queue."""
     state = state_with(line("b1", name=name, reason=name))
     reader = read(queue_table(state, WORDS, SAID))
     assert set(reader.tags) == {"table", "caption", "thead", "tbody", "tr", "th", "td"}
@@ -79,6 +86,7 @@ def test_a_hostile_product_name_is_a_text_in_the_queue(name: str) -> None:
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_a_hostile_problem_or_alarm_is_a_text(name: str) -> None:
+    """A hostile problem or alarm is a text."""
     from depal.server.cellstate import Alarm, CellState  # noqa: PLC0415
 
     told = CellState(alarms=(Alarm("x", name, name, 0.0),))
@@ -98,10 +106,12 @@ def test_only_one_module_puts_markup_into_pages() -> None:
 
 
 def is_harmless(node: ast.Attribute) -> bool:
+    """Reading an attribute of something that is no page."""
     return isinstance(node.ctx, ast.Load) and ast.unparse(node.value) != "ui"
 
 
 def test_markup_is_made_by_its_own_module_alone() -> None:
+    """Markup is made by its own module alone."""
     for path in Path(str(files("depal.server.screen"))).rglob("*.py"):
         if path.name == "markup.py":
             continue

@@ -22,16 +22,19 @@ SOURCES = sorted(
 
 
 def gaps(text: str) -> set[str]:
+    """The names in braces."""
     return {name for _, name, _, _ in string.Formatter().parse(text) if name}
 
 
 def test_all_languages_have_the_same_keys() -> None:
+    """All languages have the same keys."""
     keys = {language: set(catalogue) for language, catalogue in CATALOGUES.items()}
     assert keys["it"] == keys["en"]
 
 
 @pytest.mark.parametrize("key", sorted(CATALOGUES["en"]))
 def test_all_languages_have_the_same_gaps(key: str) -> None:
+    """All languages have the same gaps."""
     assert gaps(CATALOGUES["it"][key]) == gaps(CATALOGUES["en"][key])
 
 
@@ -51,6 +54,7 @@ def keys_in_sources() -> tuple[set[str], set[str]]:
 
 
 def test_every_key_that_is_used_exists_and_every_key_is_used() -> None:
+    """Every key that is used exists and every key is used."""
     whole, begun = keys_in_sources()
     known = set(CATALOGUES["en"])
     families = {key.split(".")[0] for key in known}
@@ -61,10 +65,12 @@ def test_every_key_that_is_used_exists_and_every_key_is_used() -> None:
 
 @pytest.mark.parametrize("mode", list(Mode))
 def test_every_mode_has_a_word(mode: Mode) -> None:
+    """Every mode has a word."""
     assert all(catalogue[f"mode.{mode.value}"] for catalogue in CATALOGUES.values())
 
 
 def test_the_browsers_first_known_language_is_spoken() -> None:
+    """The browsers first known language is spoken."""
     assert language_of("it-IT,it;q=0.9,en;q=0.8") == "it"
     assert language_of("de-DE,en;q=0.7,it;q=0.8") == "it"
     assert language_of("de,fr;q=0.5") == FIRST
@@ -74,10 +80,12 @@ def test_the_browsers_first_known_language_is_spoken() -> None:
 
 @given(st.text(max_size=60))
 def test_no_header_breaks_the_choice_of_a_language(header: str) -> None:
+    """No header breaks the choice of a language."""
     assert language_of(header) in CATALOGUES
 
 
 def test_what_the_cell_says_is_said_in_italian_with_its_names() -> None:
+    """What the cell says is said in italian with its names."""
     say = said_in("it")
     told = say("The arm cannot take box b7: b3 on top; b2 in front. Please take it off the pallet.")
     assert told == (
@@ -90,17 +98,20 @@ def test_what_the_cell_says_is_said_in_italian_with_its_names() -> None:
 
 @given(st.text(max_size=80))
 def test_what_is_not_known_in_italian_stays_as_it_is(text: str) -> None:
+    """What is not known in italian stays as it is."""
     sentence = f"Zz {text}"
     assert said_in("en")(sentence).replace(" ", "_") == sentence.replace(" ", "_")
 
 
 def test_a_name_with_braces_is_only_a_name() -> None:
+    """A name with braces is only a name."""
     say = said_in("it")
     told = say("Box b1: {0.__class__} {box}. Please pick it up.")
     assert told == "Scatola b1: {0.__class__} {box}. Raccoglila."
 
 
 def test_places_have_names_that_people_use() -> None:
+    """Places have names that people use."""
     words = words_of("it")
     assert place_name("trolley_2/level_1", words) == "carrello 2, ripiano 1"
     assert place_name("shelf", words) == "scaffale"
