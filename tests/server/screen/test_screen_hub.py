@@ -3,10 +3,12 @@
 import asyncio
 from dataclasses import replace
 
+import pytest
+
 from depal.cell.files import shipped_cell
-from depal.server.cellstate import CellState
+from depal.server.cellstate import CellState, Mode
 from depal.server.fakes import FakeCell
-from depal.server.screen.hub import Hub
+from depal.server.screen.hub import LEAST, Hub
 
 
 class Naps:
@@ -50,11 +52,12 @@ def test_a_viewer_sees_the_present_and_then_only_the_newest() -> None:
         for run in range(1, 6):
             news(cell, run)
         await settled()
-        assert shown == [None]
+        assert shown == [None], "nothing follows another state at once"
         naps.over.set()
         await settled()
         task.cancel()
-        assert naps.asked == [0.1, 0.1]
+        assert naps.asked[0] == LEAST
+        assert sum(naps.asked[:2]) == pytest.approx(0.1)
         return shown
 
     assert asyncio.run(scenario()) == [None, 5]
@@ -128,3 +131,34 @@ def test_news_after_the_loop_has_ended_are_dropped() -> None:
 
     asyncio.run(scenario())
     news(cell, 1)
+
+
+def test_a_moving_arm_waits_for_the_pause_and_a_question_does_not() -> None:
+    """A moving arm waits for the pause and a question does not."""
+
+    async def scenario() -> list[tuple[float, ...]]:
+        cell, shown = FakeCell(shipped_cell("default")), []
+        pause = asyncio.Event()
+
+        async def show(state: CellState) -> None:
+            shown.append(state.joints)
+
+        async def sleep(seconds: float) -> None:
+            if seconds > LEAST:
+                await pause.wait()
+
+        hub = Hub(cell, sleep)
+        task = asyncio.create_task(hub.add(show, pause=0.1).run())
+        await settled()
+        cell.tell(replace(cell.told, joints=(1.0,)))
+        await settled()
+        shown.clear()
+        cell.tell(replace(cell.told, joints=(2.0,)))
+        await settled()
+        assert shown == []
+        cell.tell(replace(cell.told, mode=Mode.HELD, joints=(3.0,)))
+        await settled()
+        task.cancel()
+        return shown
+
+    assert asyncio.run(scenario()) == [(3.0,)]
