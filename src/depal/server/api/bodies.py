@@ -36,16 +36,23 @@ class NewRequest(Body):
 
 
 class ChangedRequest(Body):
-    """Another priority, or another due time."""
+    """Another priority, or another due time; what is not named stays as it is."""
 
-    priority: Share
-    due: datetime | None = None
-    due_in: Annotated[float, Field(ge=0.0, le=2592000.0)] | None = None
+    priority: Share | None = Field(None, examples=[0.9])
+    due: datetime | None = Field(None, description="RFC 3339; null for no due time any more")
+    due_in: Annotated[float, Field(ge=0.0, le=2592000.0)] | None = Field(
+        None, description="seconds from now, instead of due"
+    )
 
     @model_validator(mode="after")
     def _one(self) -> "ChangedRequest":
         _one_due(self.due, self.due_in)
         return self
+
+    @property
+    def keeps_due(self) -> bool:
+        """Whether nothing is said of when it is due."""
+        return self.due_in is None and "due" not in self.model_fields_set
 
 
 def _one_due(due: datetime | None, due_in: float | None) -> None:

@@ -173,16 +173,17 @@ class Desk:
         repeat: str | None = None,
     ) -> None:
         """Asks for a product or a box, once for each `repeat`."""
-        due = None if minutes is None else self.site.chance.now() + 60 * minutes
+        due_in = None if minutes is None else 60 * minutes
         wanting.add_request(
-            self.site, self.me(), gtin=gtin, box=box, priority=priority, due=due, repeat=repeat
-        )
+            self.site, self.me(), gtin=gtin, box=box, priority=priority, due_in=due_in,
+            repeat=repeat,
+        )  # fmt: skip
 
     def change_request(self, key: str, priority: float) -> None:
         """Another priority; when it is due stays."""
         kept = wanting.get_request(self.site, self.me(), key)
         wanting.change_request(
-            self.site, self.me(), key, version=kept.version, priority=priority, due=kept.due
+            self.site, self.me(), key, version=kept.version, priority=priority, keep_due=True
         )
 
     def cancel_request(self, key: str) -> None:

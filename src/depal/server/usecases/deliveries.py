@@ -20,6 +20,11 @@ LARGEST = 5 * 2**20
 EDGES, HEAVIEST = (0.02, 2.0), 100.0
 """Of a case: its edges [m] and its mass [kg]."""
 
+LONGEST = 100
+"""Of the name of a delivery, which is part of an address [characters]."""
+
+MOST = 500
+
 NAME = 200
 """The longest name of a product [characters]."""
 
@@ -80,10 +85,12 @@ class ProductView:
 
 
 @use_case(PEOPLE)
-def list_deliveries(site: Site, who: Principal | None) -> tuple[QueuedView, ...]:
-    """The queue of deliveries, and those that are done."""
+def list_deliveries(
+    site: Site, who: Principal | None, after: str | None = None, limit: int = MOST
+) -> tuple[QueuedView, ...]:
+    """The queue of deliveries, then those that are done, the newest first."""
     del who
-    return site.queue.list()
+    return site.queue.list(after=after, limit=max(1, min(limit, MOST)))
 
 
 @use_case(PEOPLE)
@@ -102,7 +109,7 @@ def add_deliveries(
     by = "nobody" if who is None else who.name
     places = by_storage(site.cell.layout.places, without=site.cell.layout.aside)
     site.store.seed_places(found, places)
-    return tuple(site.queue.add(delivery, by) for delivery in found)
+    return site.queue.add_all(found, by)
 
 
 @use_case(WORKERS)
@@ -119,22 +126,22 @@ def _read(site: Site, text: str, file: str) -> tuple[Delivery, ...]:
         raise TooLarge(f"the file is larger than {LARGEST} bytes")
     name = Path(PurePosixPath(file.replace("\\", "/")).name[:100] or "upload.json")
     found = deliveries_in(text, name)
+    known = site.queue.known(delivery.id for delivery in found)
     problems = [
-        Problem(delivery.id, f"delivery {delivery.id!r} is in the queue already", "another name")
+        Problem(delivery.id, f"there is a delivery {delivery.id!r} already", "another name")
         for delivery in found
-        if _known(site, delivery.id)
+        if delivery.id in known
+    ]
+    problems += [
+        Problem(
+            "id", f"{delivery.id[:LONGEST]!r}", f"at most {LONGEST} characters, and no dots alone"
+        )
+        for delivery in found
+        if len(delivery.id) > LONGEST or set(delivery.id) == {"."}
     ]
     if problems:
         raise DeliveryError(str(name), problems)
     return found
-
-
-def _known(site: Site, name: str) -> bool:
-    try:
-        site.queue.get(name)
-    except NotFound:
-        return False
-    return True
 
 
 @use_case(WORKERS, command=True)

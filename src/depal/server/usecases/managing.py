@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from depal import __version__
 from depal.errors import Problem
 from depal.server.people import AuditLine, PersonView, TokenView
 from depal.server.problems import Conflict, Forbidden, NotFound, SignInNeeded, Unusable
@@ -46,6 +47,26 @@ class Verified:
 
     whole: bool
     broken: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Health:
+    """That the server answers.
+
+    Attributes:
+        status: "ok".
+        version: of depal.
+    """
+
+    status: str
+    version: str
+
+
+@use_case(None)
+def see_health(site: Site, who: Principal | None) -> Health:
+    """Whether the server answers, and which version it is."""
+    del site, who
+    return Health("ok", __version__)
 
 
 @use_case(None, command=True, secrets=("code", "password"))

@@ -30,6 +30,7 @@ MEANINGS = {
     403: "The role may not do this",
     404: "There is no such thing",
     405: "This path knows other methods",
+    406: "The client takes nothing that there is",
     409: "It cannot be done in this state",
     412: "Somebody else has changed it meanwhile",
     413: "Too large",
@@ -44,7 +45,7 @@ MEANINGS = {
 
 def answers(*more: int) -> dict[int | str, dict[str, Any]]:
     """The problem documents that an operation may answer with."""
-    usual = {400, 401, 403, 405, 409, 413, 415, 421, 422, 503}
+    usual = {400, 401, 403, 405, 406, 409, 413, 415, 421, 422, 503}
     content: dict[str, Any] = {"application/problem+json": {}}
     return {
         status: {

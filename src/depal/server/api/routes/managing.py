@@ -1,11 +1,10 @@
 """Signing in, people, tokens, audit, runs, health."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request
 from starlette.responses import Response
 
-from depal import __version__
 from depal.server.api.bodies import (
     FirstAccount,
     NewPassword,
@@ -60,10 +59,11 @@ def _address(request: Request) -> str:
 
 
 def _signing(router: APIRouter, site: Site, exposure: Exposure) -> None:
-    @router.get("/health", response_model=dict[str, Any], operation_id="health")
-    def health() -> Response:
+    @router.get("/health", response_model=cases.Health, operation_id="health")
+    @serves(cases.see_health)
+    def health(request: Request) -> Response:
         """Whether the server answers, and which version it is."""
-        return said({"status": "ok", "version": __version__})
+        return said(cases.see_health(site, who_asks(request)))
 
     @router.post(
         "/first-account",

@@ -8,9 +8,9 @@ from starlette.responses import Response
 
 from depal.errors import Problem
 from depal.server.api.bodies import Assignment, NewProduct, Position
+from depal.server.api.contents import gives, uploads
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.gate import uploads
 from depal.server.api.routes.documented import answers
 from depal.server.problems import Unusable
 from depal.server.records import PictureView, QueuedView
@@ -18,6 +18,11 @@ from depal.server.site import Site
 from depal.server.usecases import deliveries as cases
 
 NAME = Annotated[str, Path(min_length=1, max_length=100)]
+
+FILE = Annotated[
+    str,
+    Query(min_length=1, max_length=90, description="the name of a delivery that comes as CSV"),
+]
 
 UPLOAD = {
     "requestBody": {
@@ -52,15 +57,15 @@ def store(router: APIRouter, site: Site, exposure: Exposure) -> None:
     _stock(router, site)
 
 
-async def _text(request: Request) -> tuple[str, str]:
-    """An uploaded file and a name for it."""
+async def _text(request: Request, name: str) -> tuple[str, str]:
+    """An uploaded file and its name: a note as CSV has no other one."""
     kind = request.headers.get("content-type", "")
     body = await request.body()
     try:
         text = body.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise Unusable("the file is no text", [Problem("body", str(error), "UTF-8")]) from error
-    return text, "upload.csv" if kind.startswith("text/csv") else "upload.json"
+    return text, f"{name}.csv" if kind.startswith("text/csv") else f"{name}.json"
 
 
 def _deliveries(router: APIRouter, site: Site) -> None:
@@ -73,12 +78,12 @@ def _deliveries(router: APIRouter, site: Site) -> None:
         openapi_extra=UPLOAD,
     )
     @serves(cases.add_deliveries)
-    @uploads
-    async def add_deliveries(request: Request) -> Response:
+    @uploads("application/json", "text/csv")
+    async def add_deliveries(request: Request, name: FILE = "upload") -> Response:
         """Check an uploaded file of deliveries and add them to the end of the queue."""
-        text, name = await _text(request)
+        text, file = await _text(request, name)
         who = who_asks(request)
-        return said(await run_in_threadpool(cases.add_deliveries, site, who, text, name), 201)
+        return said(await run_in_threadpool(cases.add_deliveries, site, who, text, file), 201)
 
     @router.post(
         "/deliveries/check",
@@ -88,28 +93,32 @@ def _deliveries(router: APIRouter, site: Site) -> None:
         openapi_extra=UPLOAD,
     )
     @serves(cases.check_deliveries)
-    @uploads
-    async def check_deliveries(request: Request) -> Response:
+    @uploads("application/json", "text/csv")
+    async def check_deliveries(request: Request, name: FILE = "upload") -> Response:
         """Check a file of deliveries without adding it."""
-        text, name = await _text(request)
+        text, file = await _text(request, name)
         who = who_asks(request)
-        return said(await run_in_threadpool(cases.check_deliveries, site, who, text, name))
+        return said(await run_in_threadpool(cases.check_deliveries, site, who, text, file))
 
     @router.get(
         "/deliveries",
         response_model=list[QueuedView],
-        responses=answers(),
+        responses=answers(404),
         operation_id="list_deliveries",
     )
     @serves(cases.list_deliveries)
-    def list_deliveries(request: Request) -> Response:
-        """The queue of deliveries, and those that are done."""
-        return said(cases.list_deliveries(site, who_asks(request)))
+    def list_deliveries(
+        request: Request,
+        after: Annotated[str | None, Query(max_length=100)] = None,
+        limit: Annotated[int, Query(ge=1, le=500)] = 100,
+    ) -> Response:
+        """The queue of deliveries, then those that are done, the newest first."""
+        return said(cases.list_deliveries(site, who_asks(request), after, limit))
 
 
 def _queue(router: APIRouter, site: Site) -> None:
     @router.get(
-        "/deliveries/{name}",
+        "/deliveries/{name:path}",
         response_model=QueuedView,
         responses=answers(404),
         operation_id="get_delivery",
@@ -121,7 +130,7 @@ def _queue(router: APIRouter, site: Site) -> None:
         return said(view, version=view.version)
 
     @router.delete(
-        "/deliveries/{name}",
+        "/deliveries/{name:path}",
         response_model=QueuedView,
         responses=answers(404, 412, 428),
         operation_id="cancel_delivery",
@@ -136,7 +145,7 @@ def _queue(router: APIRouter, site: Site) -> None:
         return said(view, version=view.version)
 
     @router.put(
-        "/deliveries/{name}/position",
+        "/deliveries/{name:path}/position",
         response_model=QueuedView,
         responses=answers(404, 412, 428),
         operation_id="move_delivery",
@@ -216,7 +225,7 @@ def _pictures(router: APIRouter, site: Site) -> None:
         openapi_extra=PICTURE,
     )
     @serves(cases.put_picture)
-    @uploads
+    @uploads("image/png", "image/jpeg")
     async def put_picture(request: Request, gtin: NAME, face: FACE) -> Response:
         """Upload a picture of a product's face, PNG or JPEG."""
         body = await request.body()
@@ -230,6 +239,7 @@ def _pictures(router: APIRouter, site: Site) -> None:
         operation_id="get_picture",
     )
     @serves(cases.get_picture)
+    @gives("image/png", "image/jpeg")
     def get_picture(request: Request, gtin: NAME, face: FACE) -> Response:
         """A picture of a product's face."""
         view, body = cases.get_picture(site, who_asks(request), gtin, face)

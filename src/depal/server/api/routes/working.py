@@ -11,6 +11,7 @@ from starlette.concurrency import run_in_threadpool
 from starlette.responses import Response, StreamingResponse
 
 from depal.server.api.bodies import NewSettings, Start
+from depal.server.api.contents import gives
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
 from depal.server.api.routes.documented import answers
@@ -75,6 +76,7 @@ def _reading(router: APIRouter, site: Site) -> None:
         operation_id="see_picture",
     )
     @serves(cases.see_picture)
+    @gives("image/jpeg")
     def see_picture(request: Request) -> Response:
         """The last camera picture with what was seen in it."""
         picture = cases.see_picture(site, who_asks(request))
