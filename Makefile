@@ -1,4 +1,5 @@
 # make run      install, then run the main job: a real delivery, from pallet to trolleys
+# make serve    install, then show the cell's screen; it prints one link
 # make studies  the paper's case studies on geometry alone
 # make test     install, then check and test everything; samples every figure
 # make check    formatting, lint, types and layers only
@@ -10,13 +11,16 @@ OUT ?= out
 COVERAGE := --cov=depal.domain --cov=depal.geometry --cov=depal.selection --cov=depal.errors \
 	--cov-branch --cov-report=term-missing:skip-covered --cov-fail-under=100
 
-.PHONY: run studies test check figures clean
+.PHONY: run serve studies test check figures clean
 
 run: .venv/.installed
 	@mkdir -p $(OUT)
 	@rm -rf $(OUT)/run
 	$(BIN)/depal run --record $(OUT)/run --json $(OUT)/run.json
 	@echo "the run as it went: $(OUT)/run/run.gif; decision by decision: $(BIN)/depal replay $(OUT)/run"
+
+serve: .venv/.installed
+	$(BIN)/depal serve --data $(OUT)/depal-data
 
 studies: .venv/.installed
 	@mkdir -p $(OUT)

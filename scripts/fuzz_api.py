@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
+from collections.abc import Callable
 from pathlib import Path
 
 import schemathesis
@@ -115,12 +116,14 @@ def fuzz(folder: Path, requests: int, seed: int) -> Tally:
             call(case)
 
         generated()
-    _stateful(schema, call, requests * STATEFUL, quiet)
+    _stateful(schema, call, lambda: tally.requests < requests, quiet)
     succeed(app, site, tally.note)
     return tally
 
 
-def _stateful(schema: object, call: object, requests: float, quiet: dict[str, object]) -> None:
+def _stateful(
+    schema: object, call: object, more: Callable[[], bool], quiet: dict[str, object]
+) -> None:
     machine = schema.as_state_machine()  # type: ignore[attr-defined]
 
     class Sequences(machine):  # type: ignore[misc,valid-type]
@@ -136,7 +139,7 @@ def _stateful(schema: object, call: object, requests: float, quiet: dict[str, ob
 
     # The site remembers, so that no sequence can be run again: each is an example of its own.
     one = settings(max_examples=1, stateful_step_count=STEPS, **quiet)
-    for _ in range(max(1, round(requests / STEPS))):
+    while more():
         Sequences.run(settings=one)
 
 

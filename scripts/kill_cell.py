@@ -94,7 +94,7 @@ class Cell:
 
     def __call__(self, method: str, path: str, **how: Any) -> Any:  # noqa: ANN401 - JSON
         """One call of the API."""
-        headers = {"origin": self.base}
+        headers = {"origin": self.base, **how.pop("headers", {})}
         response = self._client.request(method, f"{self.base}/api/v1{path}", headers=headers, **how)
         if response.status_code >= 300:  # noqa: PLR2004 - HTTP's own number
             raise RuntimeError(f"{method} {path}: {response.status_code} {response.text}")

@@ -1,5 +1,6 @@
 """Who may do what: every use case and every route, for every role and every bad credential."""
 
+import importlib.util
 import inspect
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +15,8 @@ from depal.server.problems import Answer, Forbidden, SignInNeeded
 from depal.server.roles import Principal, Role
 from depal.server.site import Site
 from depal.server.usecases import deliveries, managing, use_cases, wanting, working
+
+ROOT = Path(__file__).parent.parent.parent
 
 MODULES = (working, wanting, deliveries, managing)
 
@@ -275,3 +278,14 @@ def test_an_answer_says_its_status() -> None:
     """Every kind of answer has a status of its own."""
     kinds = Answer.__subclasses__()
     assert len({kind.status for kind in kinds}) == len(kinds)
+
+
+def test_the_page_about_the_api_tells_the_table_as_it_is() -> None:
+    """`python scripts/api_table.py` brings it up to date."""
+    spec = importlib.util.spec_from_file_location("api_table", ROOT / "scripts" / "api_table.py")
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    text = (ROOT / "docs" / "api.md").read_text(encoding="utf-8")
+    assert module.page(text) == text

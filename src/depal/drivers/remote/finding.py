@@ -2,7 +2,6 @@
 
 import json
 import os
-import subprocess
 import sys
 import time
 from dataclasses import dataclass
@@ -71,15 +70,17 @@ def start_world(folder: Path, rate: float = 1.0, start: float = 0.0) -> Card:
     (folder / CARD).unlink(missing_ok=True)
     command = [sys.executable, "-m", "depal.simulation.process", str(folder), str(rate), str(start)]
     with (folder / LOG).open("ab") as log:
-        process = subprocess.Popen(  # noqa: S603 - our own module
-            command, stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True
+        quiet = (os.POSIX_SPAWN_OPEN, 0, os.devnull, os.O_RDONLY, 0)
+        words = [(os.POSIX_SPAWN_DUP2, log.fileno(), number) for number in (1, 2)]
+        pid = os.posix_spawn(
+            command[0], command, os.environ, file_actions=[quiet, *words], setsid=True
         )
     until = time.monotonic() + PATIENCE
     while time.monotonic() < until:
         card = card_of(folder)
         if card is not None:
             return card
-        if process.poll() is not None:
+        if os.waitpid(pid, os.WNOHANG)[0] == pid:
             break
         time.sleep(0.02)
     raise DeviceError(f"the simulated world did not start; its words are in {folder / LOG}")

@@ -69,9 +69,10 @@ class Limits:
         failures = self._failures.get(key)
         if failures is None or failures.count < FREE[key[0]]:
             return 0.0
+        if now < failures.last:  # the clock was set back: the wait begins anew, and no longer
+            self._failures[key] = failures = _Failures(failures.count, now)
         wait = min(FIRST * 2.0 ** min(failures.count - FREE[key[0]], 30), LONGEST)
-        # A clock that was set back does not lock anybody out for longer than the wait.
-        return min(max(failures.last + wait - now, 0.0), wait)
+        return max(failures.last + wait - now, 0.0)
 
     def _forget(self, now: float) -> None:
         kept = {k: f for k, f in self._failures.items() if now - f.last < FORGOTTEN}
