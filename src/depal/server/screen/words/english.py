@@ -264,6 +264,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "wish.due_in": "Needed within minutes (optional)",
         "wish.estimate": "{boxes} boxes before it, about {minutes} min",
         "wish.late": "{minutes} min late",
+        "wish.level": "How urgent",
         "wish.next": "Next",
         "wish.none": "Nobody has requested anything.",
         "wish.now": "Now",

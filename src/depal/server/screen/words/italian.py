@@ -266,6 +266,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "wish.due_in": "Serve entro minuti (facoltativo)",
         "wish.estimate": "{boxes} scatole prima, circa {minutes} min",
         "wish.late": "in ritardo di {minutes} min",
+        "wish.level": "Urgenza",
         "wish.next": "Presto",
         "wish.none": "Nessuno ha richiesto niente.",
         "wish.now": "Subito",
