@@ -61,6 +61,7 @@ ENGLISH: Final[Mapping[str, str]] = MappingProxyType(
         "done.start": "Started.",
         "done.stop": "The cell will stop after this box.",
         "done.upload": "{name} is checked and waits.",
+        "done.wait": "One moment: the cell is still busy with what was pressed before.",
         "done.wish": "Requested.",
         "done.wish_cancelled": "Request cancelled.",
         "done.wish_changed": "Request changed: {level}",

@@ -61,6 +61,7 @@ ITALIAN: Final[Mapping[str, str]] = MappingProxyType(
         "done.start": "Avviata.",
         "done.stop": "La cella si fermerà dopo questa scatola.",
         "done.upload": "{name} è controllata e in attesa.",
+        "done.wait": "Un momento: la cella sta ancora eseguendo il comando precedente.",
         "done.wish": "Richiesta inviata.",
         "done.wish_cancelled": "Richiesta annullata.",
         "done.wish_changed": "Richiesta cambiata: {level}",
