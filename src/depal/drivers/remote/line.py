@@ -10,6 +10,7 @@ from typing import TypeVar
 import msgspec
 
 from depal.errors import DeviceError
+from depal.executive.clock import PacedLoop
 from depal.ports.wire import messages as m
 from depal.ports.wire.codec import encoded, received
 
@@ -48,6 +49,7 @@ class Line:
         line._tasks.append(asyncio.create_task(line._listen()))
         try:
             welcome = await line.call(m.Hello(m.VERSION, os.getpid()), m.Welcome)
+            keep_step(welcome.lag)
         except BaseException:
             await line.close()
             raise
@@ -124,6 +126,7 @@ class Line:
     def _take(self, reply: m.Reply) -> None:
         if reply.state is not None:
             self._state = reply.state
+            keep_step(reply.state.lag)
             for heard in tuple(self._heard):
                 heard(reply.state)
         future = self._waiting.get(reply.number)
@@ -152,3 +155,10 @@ class Line:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         self._writer.close()
+
+
+def keep_step(lag: float) -> None:
+    """The running loop is as late as the world's."""
+    loop = asyncio.get_running_loop()
+    if isinstance(loop, PacedLoop):
+        loop.lag = lag

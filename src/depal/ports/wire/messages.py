@@ -131,6 +131,7 @@ class State(msgspec.Struct, frozen=True):
     trolleys: dict[str, str | None]
     stopped: bool
     gate_open: bool
+    lag: float = 0.0
 
 
 class Truth(msgspec.Struct, frozen=True):
@@ -278,12 +279,14 @@ class Welcome(msgspec.Struct, frozen=True):
         start: the world's time at the origin [s].
         origin: of the machine's monotonic clock [s].
         built: what stands in the world.
+        lag: how far its time is behind the pace [s].
     """
 
     pace: float
     start: float
     origin: float
     built: Built | None
+    lag: float = 0.0
 
 
 class Reply(msgspec.Struct, frozen=True):

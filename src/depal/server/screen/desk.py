@@ -169,21 +169,27 @@ class Desk:
         gtin: str | None,
         box: str | None,
         priority: float,
-        minutes: float | None,
+        due: float | None,
         repeat: str | None = None,
     ) -> None:
-        """Asks for a product or a box, once for each `repeat`."""
-        due_in = None if minutes is None else 60 * minutes
+        """Asks for a product or a box.
+
+        Args:
+            gtin: the product.
+            box: or the box.
+            priority: p in [0, 1].
+            due: seconds since 1970, if at all.
+            repeat: the same one asks once.
+        """
         wanting.add_request(
-            self.site, self.me(), gtin=gtin, box=box, priority=priority, due_in=due_in,
-            repeat=repeat,
-        )  # fmt: skip
+            self.site, self.me(), gtin=gtin, box=box, priority=priority, due=due, repeat=repeat
+        )
 
     def change_request(self, key: str, priority: float) -> None:
         """Another priority; when it is due stays."""
         kept = wanting.get_request(self.site, self.me(), key)
         wanting.change_request(
-            self.site, self.me(), key, version=kept.version, priority=priority, keep_due=True
+            self.site, self.me(), key, version=kept.version, priority=priority, due=kept.due
         )
 
     def cancel_request(self, key: str) -> None:

@@ -16,6 +16,7 @@ from depal.errors import DepalError, DeviceError
 from depal.executive.clock import Pace
 from depal.ports.wire import messages as m
 from depal.ports.wire.codec import encoded, received
+from depal.simulation.process.late import lag_of_this_loop
 from depal.simulation.process.world import SILENT, Stage, done
 
 SOCKET, CARD = "world.sock", "world.json"
@@ -153,7 +154,9 @@ class WorldServer:
         self._controller = (pid, writer)
         self._heard = time.monotonic()
         pace = self._pace
-        welcome = m.Welcome(pace.rate, pace.start, pace.origin, self._stage.built)
+        welcome = m.Welcome(
+            pace.rate, pace.start, pace.origin, self._stage.built, lag_of_this_loop()
+        )
         value = msgspec.msgpack.encode(welcome)
         self._say(m.Reply(first.number, value, state=self._stage.state()))
         try:

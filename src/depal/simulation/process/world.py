@@ -11,6 +11,7 @@ from depal.ports import Guard
 from depal.ports.wire import messages as m
 from depal.simulation.cell import SimulatedCell, build
 from depal.simulation.imaging.severity import Severity
+from depal.simulation.process.late import LateWorld, lag_of_this_loop
 from depal.simulation.referee import Referee
 
 SILENT = "the controller is gone"
@@ -61,6 +62,7 @@ class Stage:
             {storage.id: cell.bays.trolley(storage.id) for storage in cell.world.layout.storages},
             safety.stopped,
             safety.gate_open,
+            lag_of_this_loop(),
         )
 
     async def call(self, call: m.Call) -> object:
@@ -102,6 +104,7 @@ class Stage:
             clock=self._clock,
             start=self._clock.now(),
             severity=Severity(call.severity),
+            kind=LateWorld,
         )
         self.built = m.Built(call.delivery.id, call.number)
 
