@@ -8,8 +8,9 @@ from depal.errors import DeliveryError, Problem
 from depal.logistics import deliveries_in
 from depal.logistics.gtin import gtin_fault
 from depal.logistics.store import by_storage
-from depal.server.problems import NotFound, TooLarge, Unusable
+from depal.server.problems import TooLarge, Unusable
 from depal.server.records import PictureView, QueuedView
+from depal.server.records.products import version_of
 from depal.server.roles import ALL, PEOPLE, SET_UP, WORKERS, Principal
 from depal.server.site import Site
 from depal.server.usecases.registry import use_case
@@ -74,6 +75,7 @@ class ProductView:
         mass: of a full case [kg].
         places: where it belongs, best first.
         pictures: of its faces.
+        version: of all but the pictures.
     """
 
     gtin: str
@@ -82,6 +84,7 @@ class ProductView:
     mass: float
     places: tuple[str, ...]
     pictures: tuple[PictureView, ...] = ()
+    version: int = 0
 
 
 @use_case(PEOPLE)
@@ -169,17 +172,16 @@ def list_products(
     """The products that the store knows, by name or number."""
     del who
     found = site.store.products(search, after, max(1, min(limit, 500)))
-    return tuple(_product(site, product, pictures=False) for product in found)
+    return tuple(_in_list(site, product) for product in found)
 
 
 @use_case(ALL)
 def get_product(site: Site, who: Principal | None, gtin: str) -> ProductView:
     """A product with its places and pictures."""
     del who
-    product = site.store.product(Gtin(gtin))
-    if product is None:
-        raise NotFound(f"there is no product {gtin!r}")
-    return _product(site, product, pictures=True)
+    product, places, version = site.products.get(Gtin(gtin))
+    pictures = site.pictures.list(gtin)
+    return ProductView(gtin, product.name, product.size, product.mass, places, pictures, version)
 
 
 @use_case(SET_UP, command=True)
@@ -190,9 +192,9 @@ def put_product(
     name: str,
     size: tuple[float, float, float],
     mass: float,
+    version: int | None = None,
 ) -> ProductView:
     """Add a product, or change what is known of it."""
-    del who
     problems = []
     fault = gtin_fault(gtin)
     if fault is not None:
@@ -207,21 +209,21 @@ def put_product(
         problems.append(Problem("mass", f"{mass!r}", expected))
     if problems:
         raise Unusable("this product cannot be kept", problems)
-    product = Product(Gtin(gtin), name, size, mass)
-    site.store.keep_product(product)
-    return _product(site, product, pictures=True)
+    site.products.put(Product(Gtin(gtin), name, size, mass), version)
+    return get_product(site, who, gtin)
 
 
 @use_case(SET_UP, command=True)
 def assign_product(
-    site: Site, who: Principal | None, gtin: str, places: tuple[str, ...]
+    site: Site,
+    who: Principal | None,
+    gtin: str,
+    places: tuple[str, ...],
+    version: int | None = None,
 ) -> ProductView:
     """Say where a product belongs, best first."""
-    product = site.store.product(Gtin(gtin))
-    if product is None:
-        raise NotFound(f"there is no product {gtin!r}")
     site.store.keep_places(site.cell.layout.places.values())
-    site.store.assign({Gtin(gtin): [PlaceId(place) for place in places]})
+    site.products.assign(Gtin(gtin), [PlaceId(place) for place in places], version)
     return get_product(site, who, gtin)
 
 
@@ -261,12 +263,9 @@ def see_stock(site: Site, who: Principal | None) -> tuple[StockLine, ...]:
     return tuple(StockLine(place, gtin, count) for (place, gtin), count in stock.items())
 
 
-def _product(site: Site, product: Product, *, pictures: bool) -> ProductView:
+def _in_list(site: Site, product: Product) -> ProductView:
+    places = site.store.assignment(product.gtin)
+    version = version_of(product, places)
     return ProductView(
-        product.gtin,
-        product.name,
-        product.size,
-        product.mass,
-        site.store.assignment(product.gtin),
-        site.pictures.list(product.gtin) if pictures else (),
+        product.gtin, product.name, product.size, product.mass, places, version=version
     )

@@ -11,9 +11,10 @@ from depal.server.api.bodies import Assignment, NewProduct, Position
 from depal.server.api.contents import gives, uploads
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.routes.documented import answers
+from depal.server.api.routes.documented import answers, leads
 from depal.server.problems import Unusable
 from depal.server.records import PictureView, QueuedView
+from depal.server.records.products import NEW
 from depal.server.site import Site
 from depal.server.usecases import deliveries as cases
 
@@ -44,6 +45,18 @@ PICTURE = {
     }
 }
 
+DELIVERY = {"get_delivery": "name", "move_delivery": "name", "cancel_delivery": "name"}
+
+PRODUCT = {
+    "get_product": "gtin",
+    "put_product": "gtin",
+    "assign_product": "gtin",
+    "put_picture": "gtin",
+    "get_picture": "gtin",
+}
+
+MATCH = Annotated[str | None, Header(description="the ETag of what is changed, or *")]
+
 FACE = Annotated[str, Path(pattern="^(front|back|left|right|top|bottom)$")]
 
 
@@ -73,7 +86,7 @@ def _deliveries(router: APIRouter, site: Site) -> None:
         "/deliveries",
         response_model=list[QueuedView],
         status_code=201,
-        responses=answers(),
+        responses=answers() | leads(201, "/0/id", **DELIVERY),
         operation_id="add_deliveries",
         openapi_extra=UPLOAD,
     )
@@ -103,7 +116,7 @@ def _deliveries(router: APIRouter, site: Site) -> None:
     @router.get(
         "/deliveries",
         response_model=list[QueuedView],
-        responses=answers(404),
+        responses=answers(404) | leads(200, "/0/id", **DELIVERY),
         operation_id="list_deliveries",
     )
     @serves(cases.list_deliveries)
@@ -168,7 +181,7 @@ def _products(router: APIRouter, site: Site) -> None:
     @router.get(
         "/products",
         response_model=list[cases.ProductView],
-        responses=answers(),
+        responses=answers() | leads(200, "/0/gtin", **PRODUCT),
         operation_id="list_products",
     )
     @serves(cases.list_products)
@@ -190,30 +203,42 @@ def _products(router: APIRouter, site: Site) -> None:
     @serves(cases.get_product)
     def get_product(request: Request, gtin: NAME) -> Response:
         """A product with its places and pictures."""
-        return said(cases.get_product(site, who_asks(request), gtin))
+        view = cases.get_product(site, who_asks(request), gtin)
+        return said(view, version=view.version)
 
     @router.put(
         "/products/{gtin}",
         response_model=cases.ProductView,
-        responses=answers(),
+        responses=answers(404, 412, 428) | leads(200, "/gtin", **PRODUCT),
         operation_id="put_product",
     )
     @serves(cases.put_product)
-    def put_product(request: Request, gtin: NAME, body: NewProduct) -> Response:
-        """Add a product, or change what is known of it."""
+    def put_product(
+        request: Request, gtin: NAME, body: NewProduct, if_match: MATCH = None
+    ) -> Response:
+        """Add a product, or change what is known of it: then with If-Match."""
         who = who_asks(request)
-        return said(cases.put_product(site, who, gtin, body.name, body.size, body.mass))
+        version = NEW if if_match is None else version_in(request)
+        if version is None:
+            version = cases.get_product(site, who, gtin).version
+        view = cases.put_product(site, who, gtin, body.name, body.size, body.mass, version)
+        return said(view, version=view.version)
 
     @router.put(
         "/products/{gtin}/places",
         response_model=cases.ProductView,
-        responses=answers(404),
+        responses=answers(404, 412, 428),
         operation_id="assign_product",
     )
     @serves(cases.assign_product)
-    def assign_product(request: Request, gtin: NAME, body: Assignment) -> Response:
+    def assign_product(
+        request: Request, gtin: NAME, body: Assignment, if_match: MATCH = None
+    ) -> Response:
         """Say where a product belongs, best first."""
-        return said(cases.assign_product(site, who_asks(request), gtin, tuple(body.places)))
+        del if_match
+        version, places = version_in(request), tuple(body.places)
+        view = cases.assign_product(site, who_asks(request), gtin, places, version)
+        return said(view, version=view.version)
 
 
 def _pictures(router: APIRouter, site: Site) -> None:

@@ -9,7 +9,7 @@ from starlette.responses import Response
 from depal.server.api.bodies import ChangedRequest, Choice, NewRequest
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.routes.documented import answers
+from depal.server.api.routes.documented import answers, leads
 from depal.server.records import QuestionView, RequestView
 from depal.server.site import Site
 from depal.server.usecases import wanting as cases
@@ -37,7 +37,8 @@ def _requests(router: APIRouter, site: Site) -> None:
         "/requests",
         response_model=RequestView,
         status_code=201,
-        responses=answers(404),
+        responses=answers(404)
+        | leads(201, "/key", get_request="key", change_request="key", cancel_request="key"),
         operation_id="add_request",
     )
     @serves(cases.add_request)
@@ -62,7 +63,8 @@ def _requests(router: APIRouter, site: Site) -> None:
     @router.get(
         "/requests",
         response_model=list[RequestView],
-        responses=answers(),
+        responses=answers()
+        | leads(200, "/0/key", get_request="key", change_request="key", cancel_request="key"),
         operation_id="list_requests",
     )
     @serves(cases.list_requests)
@@ -136,7 +138,7 @@ def _questions(router: APIRouter, site: Site) -> None:
     @router.get(
         "/questions",
         response_model=list[QuestionView],
-        responses=answers(404),
+        responses=answers(404) | leads(200, "/0/id", get_question="name", answer_question="name"),
         operation_id="list_questions",
     )
     @serves(cases.list_questions)
