@@ -60,9 +60,10 @@ class Mimic:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
+        refuted: tuple[OrientedBox, ...],
     ) -> Look:
         """What a look finds."""
-        del frames, expected, book, before
+        del frames, expected, book, before, refuted
         number, self.looks = self.looks, self.looks + 1
         sight = TruthSight(self.cell.world, _Still(), SightSettings(share=self.failures.share))
         visible = sorted(sight.visible_boxes())

@@ -56,6 +56,7 @@ class Script:
     rest: tuple[OrientedBox, ...] = ()
     asked: list[tuple[DeliveryLine, ...] | None] = field(default_factory=list)
     before: list[Look | None] = field(default_factory=list)
+    refuted: list[tuple[OrientedBox, ...]] = field(default_factory=list)
     learned: list[Gtin] = field(default_factory=list)
 
     def eyes(self) -> Eyes:
@@ -68,8 +69,10 @@ class Script:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
+        refuted: tuple[OrientedBox, ...],
     ) -> Look:
         del frames, book
+        self.refuted.append(refuted)
         self.asked.append(expected)
         self.before.append(before)
         return Look(self.looks[min(len(self.asked), len(self.looks)) - 1])
@@ -182,6 +185,18 @@ def test_a_box_that_a_person_denies_does_not_come_back() -> None:
     looked(sight)
     sight.deny(BoxId("b1"))
     assert [box.id for box in looked(sight)[0][0].boxes] == ["b2"]
+
+
+def test_perception_is_told_what_is_no_box_and_relies_on_no_look_before() -> None:
+    """Something else explains what is seen there: also where the picture has not changed."""
+    script = Script([(seen(0.0), seen(0.5))])
+    sight = sight_of(script)
+    looked(sight)
+    sight.deny(BoxId("b1"))
+    looked(sight)
+    looked(sight)
+    assert script.refuted == [(), (seen(0.5).shape,), (seen(0.5).shape,)]
+    assert [before is None for before in script.before] == [True, True, False]
 
 
 def test_a_detected_box_has_the_one_size_of_the_note_that_fits() -> None:

@@ -17,9 +17,17 @@ from depal.perception.pictures import PictureBook
 from depal.ports import Camera, Clock, Frame, View
 
 Perceive = Callable[
-    [Sequence[Frame], tuple[DeliveryLine, ...] | None, PictureBook, Look | None], Look
+    [
+        Sequence[Frame],
+        tuple[DeliveryLine, ...] | None,
+        PictureBook,
+        Look | None,
+        tuple[OrientedBox, ...],
+    ],
+    Look,
 ]
-"""From the frames of a look to the boxes in it, by what the note says and by the look before."""
+"""From the frames of a look to the boxes in it, by what the note says, by the look before, and by
+what was taken for a box and is none."""
 
 Check = Callable[[Sequence[Frame], float], Sequence[str]]
 """What is wrong with the frames of a look that was taken at this time [s], in words."""
@@ -135,7 +143,8 @@ class CameraSight:
         before = None if self.last is None or self._doubting else self._believed()
         self._doubting = False
         expected = self._expected()
-        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before)
+        denied = tuple(box.seen.shape for box in self.memory.denied)
+        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before, denied)
         self._seen.append((taken, tuple(frames)))
         self.last = look
         self.memory = self.memory.update(look, taken)
@@ -146,8 +155,9 @@ class CameraSight:
         self._doubting = True
 
     def deny(self, name: BoxId) -> None:
-        """A person has looked: what goes by this name is no box."""
+        """What goes by this name is no box: the next look finds out what else it may be."""
         self.memory = self.memory.forgetting(name)
+        self._doubting = True
 
     @property
     def frames(self) -> tuple[Frame, ...]:
