@@ -9,11 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.domain import Product
-from depal.geometry import OrientedBox, Pose, Vector3
+from depal.geometry import Pose, Vector3
 from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
-from depal.perception.detecting import Expected, Finder, Found, Printed
-from depal.perception.detecting.refuting import refuted_on
+from depal.perception.detecting import Expected, Finder, Found, Printed, Refuted
 from depal.perception.faces import Face, Look, Raster, Rectangle
 from depal.perception.locating import located
 from depal.perception.rasters import Region, rasters_of
@@ -39,15 +38,14 @@ class Known:
         sizes: of boxes that may be there, without a name: length, width, height [m].
         gallery: the prints that may come; None where there are no pictures.
         standing: whether boxes stand upright.
-        refuted: what was taken for a box and is none, in the cell frame: something else explains
-            what is seen there.
+        refuted: what is no box: something else explains what is seen there.
     """
 
     products: tuple[Product, ...] = ()
     sizes: tuple[Vector3, ...] = ()
     gallery: Gallery | None = None
     standing: bool = True
-    refuted: tuple[OrientedBox, ...] = ()
+    refuted: Refuted = field(default_factory=Refuted)
 
     @property
     def expected(self) -> Expected:
@@ -113,7 +111,7 @@ class Observer:
     ) -> tuple[Face, ...]:
         prints = None if known.gallery is None else printed_on(raster, known.gallery)
         fixed = [rectangle_of(raster, face) for face in kept]
-        refuted = refuted_on(raster, known.refuted)
+        refuted = known.refuted.on(raster)
         found = self.finder.faces(raster, known.expected, prints, fixed, refuted)
         sizes = known.expected.faces(raster.facing)
         return tuple(located(_laid(raster, each), frames, sizes, known.gallery) for each in found)

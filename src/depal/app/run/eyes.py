@@ -8,6 +8,7 @@ from depal.domain import CameraMount, CellLayout, DeliveryLine, Product
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox
 from depal.perception.calibration import Calibration, calibrate
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
 from depal.perception.frames.checks import problems_of
 from depal.perception.memory import Memory
@@ -48,7 +49,7 @@ class Observing:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
-        refuted: tuple[OrientedBox, ...] = (),
+        refuted: Refuted,
     ) -> Look:
         """The boxes that these frames show; what looks as before is taken over from there."""
         lines = tuple(expected or ())

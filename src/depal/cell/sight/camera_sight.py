@@ -11,6 +11,7 @@ from depal.cell.sight.naming import perceived
 from depal.domain import BoxId, DeliveryLine, Product
 from depal.errors import DeviceError
 from depal.geometry import OrientedBox
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
 from depal.perception.memory import Memory, tally_of
 from depal.perception.pictures import PictureBook
@@ -22,12 +23,12 @@ Perceive = Callable[
         tuple[DeliveryLine, ...] | None,
         PictureBook,
         Look | None,
-        tuple[OrientedBox, ...],
+        Refuted,
     ],
     Look,
 ]
 """From the frames of a look to the boxes in it, by what the note says, by the look before, and by
-what was taken for a box and is none."""
+what is no box."""
 
 Check = Callable[[Sequence[Frame], float], Sequence[str]]
 """What is wrong with the frames of a look that was taken at this time [s], in words."""
@@ -114,6 +115,7 @@ class CameraSight:
         self._covered: Callable[[], bool] = lambda: False
         self.memory = Memory() if memory is None else memory
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
+        self._spans: list[OrientedBox] = []
         self.last: Look | None = None
         self.spent: list[float] = []
         self.compute: Compute = on_the_loop
@@ -144,7 +146,8 @@ class CameraSight:
         self._doubting = False
         expected = self._expected()
         denied = tuple(box.seen.shape for box in self.memory.denied)
-        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before, denied)
+        refuted = Refuted(denied, tuple(self._spans))
+        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before, refuted)
         self._seen.append((taken, tuple(frames)))
         self.last = look
         self.memory = self.memory.update(look, taken)
@@ -157,6 +160,11 @@ class CameraSight:
     def deny(self, name: BoxId) -> None:
         """What goes by this name is no box: the next look finds out what else it may be."""
         self.memory = self.memory.forgetting(name)
+        self._doubting = True
+
+    def part(self, span: OrientedBox) -> None:
+        """No one box reaches over all of a flat place: the next look finds what does."""
+        self._spans.append(span)
         self._doubting = True
 
     @property

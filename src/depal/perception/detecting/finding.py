@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.detecting.expected import Expected
-from depal.perception.detecting.refuting import is_refuted
+from depal.perception.detecting.refuting import RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
@@ -86,7 +86,7 @@ class Finder:
         expected: Expected,
         prints: Sequence[Printed] | None,
         fixed: Sequence[Rectangle] = (),
-        refuted: Sequence[Rectangle] = (),
+        refuted: RefutedFaces | None = None,
     ) -> tuple[Found, ...]:
         """The faces in a raster, none overlapping another.
 
@@ -95,7 +95,7 @@ class Finder:
             expected: what the boxes may measure.
             prints: where prints were seen; None where none was looked for.
             fixed: faces that are known already; none that is found overlaps them.
-            refuted: what was taken for a face and is none.
+            refuted: what is no face.
         """
         turns = directions_of(raster, DIRECTIONS[raster.facing])
         seams = [seams_of(raster, turn) for turn in turns]
@@ -108,7 +108,8 @@ class Finder:
         features = described(candidates.measured, candidates.sizes, sizes, shares)
         odds = self.score.log_odds(features)
         odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
-        odds[is_refuted(candidates, refuted)] = -np.inf
+        if refuted is not None:
+            odds[refuted.among(candidates)] = -np.inf
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
         values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))

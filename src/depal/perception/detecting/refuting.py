@@ -1,11 +1,12 @@
 """What was taken for a face and is none: nothing that looks like it is proposed again.
 
-A gripper that cannot seal on a box that the picture shows, or a person who finds none, tells that
-the picture was read wrong: two boxes side by side, say, were taken for one. What is seen there is
-still there, so the next best that explains it is looked for.
+A gripper of whose cups some seal on a box that the picture shows, or a person who finds none, tells
+that the picture was read wrong: two boxes side by side, say, were taken for one. What is seen there
+is still there, so the next best that explains it is looked for.
 """
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
@@ -19,41 +20,71 @@ Flags = npt.NDArray[np.bool_]
 SAME = 0.025
 """A candidate whose sides are all within this of a refuted face is that face again [m]."""
 
+BEYOND = 0.006
+"""A candidate reaches over all of a place whose sides are so far outside of it: a cup that leaks at
+the edge of a face tells of no seam [m]."""
+
 DEEP = 0.06
 """A candidate so far before or behind it is another [m]."""
 
+FLAT = 0.5
+"""A place is seen from the side where it is deeper than this share of its lesser edge."""
 
-def refuted_on(raster: Raster, boxes: Sequence[OrientedBox]) -> tuple[Rectangle, ...]:
-    """The faces that upright boxes would show on a raster.
 
-    Args:
-        raster: of fronts or of tops.
-        boxes: in the cell frame.
+@dataclass(frozen=True, slots=True)
+class RefutedFaces:
+    """What is no face of a raster.
+
+    Attributes:
+        faces: that are none, their edges along the raster's own.
+        spans: places over all of which no one face reaches.
     """
-    return tuple(_face(raster, box) for box in boxes)
+
+    faces: tuple[Rectangle, ...] = ()
+    spans: tuple[Rectangle, ...] = ()
+
+    def among(self, candidates: Candidates) -> Flags:
+        """(n,): which candidates are refuted."""
+        u, v, w, h, _, depth = candidates.values.T
+        out = np.zeros(len(candidates), dtype=np.bool_)
+        for each in self.faces:
+            along = np.abs(u - each.u) + np.abs(w - each.width) / 2
+            across = np.abs(v - each.v) + np.abs(h - each.height) / 2
+            near = np.abs(depth - each.depth) < DEEP
+            out |= (np.maximum(along, across) < SAME) & near
+        for each in self.spans:
+            along = np.abs(u - each.u) + (each.width - w) / 2
+            across = np.abs(v - each.v) + (each.height - h) / 2
+            near = np.abs(depth - each.depth) < DEEP
+            out |= (np.maximum(along, across) < -BEYOND) & near
+        return out
 
 
-def _face(raster: Raster, box: OrientedBox) -> Rectangle:
-    """The face of a box that looks to the raster's viewer, its edges along the raster's."""
-    local = np.abs(
-        np.array(raster.cell_from_raster.inverse.rotation) @ np.array(box.pose.rotation)
-    ) @ np.array(box.size)
-    width, height, depth = local.tolist()
-    u, v, middle = raster.cell_from_raster.inverse.apply(box.centre)
-    return Rectangle(u, v, width, height, 0.0, middle - depth / 2)
+@dataclass(frozen=True, slots=True)
+class Refuted:
+    """What is no box, in the cell frame.
 
-
-def is_refuted(candidates: Candidates, refuted: Sequence[Rectangle]) -> Flags:
-    """(n,): which candidates are a refuted face again.
-
-    Args:
-        candidates: on one raster.
-        refuted: faces on it, their edges along its own.
+    Attributes:
+        boxes: that were believed, upright.
+        spans: flat places that lie on no one face: of cups there some sealed and others did not.
     """
-    u, v, w, h, _, depth = candidates.values.T
-    out = np.zeros(len(candidates), dtype=np.bool_)
-    for each in refuted:
-        along = np.abs(u - each.u) + np.abs(w - each.width) / 2
-        across = np.abs(v - each.v) + np.abs(h - each.height) / 2
-        out |= (np.maximum(along, across) < SAME) & (np.abs(depth - each.depth) < DEEP)
-    return out
+
+    boxes: tuple[OrientedBox, ...] = ()
+    spans: tuple[OrientedBox, ...] = ()
+
+    def on(self, raster: Raster) -> RefutedFaces:
+        """What of it a raster would show."""
+        return RefutedFaces(_seen(raster, self.boxes, np.inf), _seen(raster, self.spans, FLAT))
+
+
+def _seen(raster: Raster, solids: Sequence[OrientedBox], flat: float) -> tuple[Rectangle, ...]:
+    """What solids show on a raster, their edges along its own; those that are flat enough."""
+    raster_from_cell = raster.cell_from_raster.inverse
+    out = []
+    for solid in solids:
+        turned = np.array(raster_from_cell.rotation) @ np.array(solid.pose.rotation)
+        width, height, depth = (np.abs(turned) @ np.array(solid.size)).tolist()
+        u, v, middle = raster_from_cell.apply(solid.centre)
+        if depth < flat * min(width, height):
+            out.append(Rectangle(u, v, width, height, 0.0, middle - depth / 2))
+    return tuple(out)
