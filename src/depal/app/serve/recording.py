@@ -8,7 +8,10 @@ from depal.ports import Movement
 from depal.server.cellstate import QuestionState
 from depal.server.chance import Chance
 from depal.server.records import Questions, Queue, Requests, Runs
-from depal.server.records.queue import CANCELLED, DONE
+from depal.server.records.queue import CANCELLED, DONE, QUEUED
+
+FAILED = "failed"
+"""How a run has ended that could not be begun: its delivery waits again."""
 
 
 class Recorder(Records):
@@ -36,7 +39,8 @@ class Recorder(Records):
         """A run is over, and its delivery with it."""
         del at
         self._runs.end(run, state, result)
-        self._queue.mark(self._runs.get(run).delivery, DONE if state == DONE else CANCELLED)
+        after = {DONE: DONE, FAILED: QUEUED}.get(state, CANCELLED)
+        self._queue.mark(self._runs.get(run).delivery, after)
 
     def dropped(self, run: int) -> None:
         """What a controller has asked that is gone: the next one asks anew."""
