@@ -10,7 +10,8 @@ from depal.simulation.referee import Referee, Summary, Truth
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
 from depal.simulation.witness import Witness, name_of
-from depal.simulation.world import Snapshot, World
+from depal.simulation.snapshot import Snapshot
+from depal.simulation.world import World
 
 __all__ = [
     "Case",
