@@ -4,6 +4,7 @@ import asyncio
 import itertools
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
 
@@ -33,6 +34,7 @@ class Line:
         self._state: m.State | None = None
         self._tasks: list[asyncio.Task[None]] = []
         self._closed: str | None = None
+        self._trouble: str | None = None
 
     @classmethod
     async def open(cls, socket: Path) -> tuple["Line", m.Welcome]:
@@ -62,10 +64,12 @@ class Line:
         """The newest state of the sensors.
 
         Raises:
-            DeviceError: there is none: nothing is built, or the world has gone.
+            DeviceError: there is none: nothing is built, nothing can be read, or the world has
+                gone.
         """
-        if self._closed is not None:
-            raise DeviceError(self._closed)
+        trouble = self._closed or self._trouble
+        if trouble is not None:
+            raise DeviceError(trouble)
         if self._state is None:
             raise DeviceError("nothing is built in this world")
         return self._state
@@ -119,9 +123,11 @@ class Line:
         except DeviceError as error:
             reason = str(error)
         finally:
-            self._end(reason)
+            self._end(self._trouble or reason)
 
     def _take(self, reply: m.Reply) -> None:
+        if reply.number == 0:
+            self._trouble = reply.error
         if reply.state is not None:
             self._state = reply.state
             for heard in tuple(self._heard):
@@ -145,6 +151,10 @@ class Line:
             if not future.done():
                 future.set_exception(DeviceError(reason))
 
+    async def ends(self, seconds: float) -> None:
+        """Waits until the world has hung up, but not for longer [s]."""
+        await asyncio.wait(self._tasks[:1], timeout=seconds)
+
     async def close(self) -> None:
         """Hangs up."""
         self._end("the line to the world is closed")
@@ -152,3 +162,5 @@ class Line:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         self._writer.close()
+        with suppress(ConnectionError):
+            await self._writer.wait_closed()
