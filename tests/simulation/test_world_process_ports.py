@@ -12,11 +12,11 @@ from simulated_layouts import PARKED, REACHING, delivery, layout, point_to_point
 from simulated_worlds import ALL, shifted
 
 from depal.cell.guards import Guards
-from depal.domain import FRONT, CellLayout, Delivery
+from depal.domain import FRONT, CellLayout, Delivery, Joints
 from depal.errors import DeviceError
 from depal.executive.clock import LoopClock
 from depal.geometry import OrientedBox, Pose, Vector3
-from depal.ports import STANDS, Guard, Question, SafetyState
+from depal.ports import STANDS, Frame, Guard, Question, SafetyState
 
 T = TypeVar("T")
 
@@ -161,7 +161,7 @@ def test_a_safety_stop_is_an_error(through: Through[Any], moment: str) -> None:
     ],
 )
 def test_the_arm_refuses_what_it_cannot_do(
-    through: Through[Any], start: Any, end: Any, seconds: float, message: str
+    through: Through[Any], start: Joints, end: Joints, seconds: float, message: str
 ) -> None:
     """With the same words."""
 
@@ -315,7 +315,7 @@ def test_a_picture_is_the_same_to_the_byte(through: Through[Any]) -> None:
         seen = []
         take = side.cell.cameras[0].take
 
-        async def kept() -> Any:
+        async def kept() -> Frame:
             seen.append(await take())
             return seen[-1]
 

@@ -12,7 +12,7 @@ import msgspec
 
 from depal.errors import DeviceError
 from depal.ports.wire import messages as m
-from depal.ports.wire.codec import encoded, received
+from depal.ports.wire.codec import decoded, encoded, received
 
 T = TypeVar("T")
 
@@ -97,7 +97,7 @@ class Line:
             value = await future
         finally:
             self._waiting.pop(number, None)
-        return msgspec.msgpack.decode(value, type=kind)
+        return decoded(value, msgspec.msgpack.Decoder(kind))
 
     def say(self, call: m.Call) -> None:
         """Tells the world something that it does not reply to.

@@ -95,7 +95,9 @@ class SimulatedArm:
         self._check_limits(trajectory)
 
     def _check_limits(self, trajectory: Trajectory) -> None:
-        if not (np.isfinite(trajectory.positions).all() and np.isfinite(trajectory.velocities).all()):
+        if not (
+            np.isfinite(trajectory.positions).all() and np.isfinite(trajectory.velocities).all()
+        ):
             raise DeviceError("the trajectory has numbers that are not finite")
         limits = self._world.layout.robot.limits
         rates = np.abs(trajectory.velocities) / np.array(limits.speed)
