@@ -28,7 +28,7 @@ from depal.ports import StoreSystem
 from depal.server.api import Exposure, build_app
 from depal.server.cell import Order
 from depal.server.chance import SystemChance
-from depal.server.records import KeptSettings, Queue, Runs
+from depal.server.records import KeptSettings, Queue, Requests, Runs
 from depal.server.screen import attach
 from depal.server.site import Site
 
@@ -138,7 +138,11 @@ class Service:
             return None
         _, delivery = Queue(self._database, self._chance).get(run.delivery)
         Recorder(self._database, self._chance).dropped(run.number)
-        return Order(run.number, delivery)
+        card = card_of(self._serving.folder)
+        now = 0.0 if card is None else card.pace.now()
+        return Order(
+            run.number, delivery, Requests(self._database, self._chance).waiting(run.number, now)
+        )
 
     def _store(self, run: int) -> StoreSystem:
         return RunStore(LocalStore(self._database), run)
