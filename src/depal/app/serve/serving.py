@@ -15,7 +15,8 @@ import uvicorn
 from depal.app.run.inputs import cell_of, one_of
 from depal.app.run.values import CAMERA, PERCEPTIONS
 from depal.app.serve.feed import Feed
-from depal.app.serve.host import Host, Means
+from depal.app.serve.host import Host
+from depal.app.serve.means import Means
 from depal.app.serve.outside import World
 from depal.app.serve.recording import Recorder, RunStore
 from depal.drivers.remote import connect, start_world

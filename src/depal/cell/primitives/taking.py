@@ -8,7 +8,7 @@ from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.primitives.feeling import lifted_from, sucked
+from depal.cell.primitives.feeling import lifted_from, seals, sucked, under_cups
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Recognition
@@ -70,6 +70,7 @@ class Taking:
         size = plan.box.shape.size
         self._work.begins(Hand(box, plan.grasp, size, plan.mass, Phase.GRASPING))
         if not await sucked(self._work, self._desk, plan):
+            self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
         lift = lifted_from(self._desk, plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
@@ -96,6 +97,12 @@ class Taking:
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"
         return None
+
+    def _tell_a_seam(self, plan: PickPlan) -> None:
+        """Where some cups seal and others do not, no one face is under all of them."""
+        named = isinstance(plan.box, Recognition)
+        if self._work.pile.remembered and not named and seals(self._work):
+            self._work.feedback.part(under_cups(self._work, self._desk, plan))
 
     def _wrong_weight(self, plan: PickPlan, mass: float) -> str | None:
         """What hangs on the arm is nothing, too much, or more than one box."""

@@ -4,6 +4,7 @@ import asyncio
 import itertools
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
 
@@ -12,7 +13,7 @@ import msgspec
 from depal.errors import DeviceError
 from depal.executive.clock import PacedLoop
 from depal.ports.wire import messages as m
-from depal.ports.wire.codec import encoded, received
+from depal.ports.wire.codec import decoded, encoded, received
 
 T = TypeVar("T")
 
@@ -34,6 +35,7 @@ class Line:
         self._state: m.State | None = None
         self._tasks: list[asyncio.Task[None]] = []
         self._closed: str | None = None
+        self._trouble: str | None = None
 
     @classmethod
     async def open(cls, socket: Path) -> tuple["Line", m.Welcome]:
@@ -64,10 +66,12 @@ class Line:
         """The newest state of the sensors.
 
         Raises:
-            DeviceError: there is none: nothing is built, or the world has gone.
+            DeviceError: there is none: nothing is built, nothing can be read, or the world has
+                gone.
         """
-        if self._closed is not None:
-            raise DeviceError(self._closed)
+        trouble = self._closed or self._trouble
+        if trouble is not None:
+            raise DeviceError(trouble)
         if self._state is None:
             raise DeviceError("nothing is built in this world")
         return self._state
@@ -95,7 +99,7 @@ class Line:
             value = await future
         finally:
             self._waiting.pop(number, None)
-        return msgspec.msgpack.decode(value, type=kind)
+        return decoded(value, msgspec.msgpack.Decoder(kind))
 
     def say(self, call: m.Call) -> None:
         """Tells the world something that it does not reply to.
@@ -121,9 +125,11 @@ class Line:
         except DeviceError as error:
             reason = str(error)
         finally:
-            self._end(reason)
+            self._end(self._trouble or reason)
 
     def _take(self, reply: m.Reply) -> None:
+        if reply.number == 0:
+            self._trouble = reply.error
         if reply.state is not None:
             self._state = reply.state
             keep_step(reply.state.lag)
@@ -148,6 +154,10 @@ class Line:
             if not future.done():
                 future.set_exception(DeviceError(reason))
 
+    async def ends(self, seconds: float) -> None:
+        """Waits until the world has hung up, but not for longer [s]."""
+        await asyncio.wait(self._tasks[:1], timeout=seconds)
+
     async def close(self) -> None:
         """Hangs up."""
         self._end("the line to the world is closed")
@@ -155,6 +165,8 @@ class Line:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         self._writer.close()
+        with suppress(ConnectionError):
+            await self._writer.wait_closed()
 
 
 def keep_step(lag: float) -> None:
