@@ -1,7 +1,6 @@
 """Kinds of content, faults, and names that are hard to ask for."""
 
 from collections.abc import Iterator
-from pathlib import Path
 from urllib.parse import quote
 
 import pytest
@@ -22,13 +21,13 @@ PROBLEM = "application/problem+json"
 NOTE = "gtin,name,length_m,width_m,height_m,mass_kg,count\n12000823098180,rice,0.3,0.2,0.2,5,1\n"
 
 
-@pytest.fixture
-def site(tmp_path: Path) -> Site:
-    """Busy, with people."""
-    return site_over(tmp_path)
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Site:
+    """Busy, with people; one for all of these tests."""
+    return site_over(tmp_path_factory.mktemp("site"))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def client(site: Site) -> Iterator[TestClient]:
     """Signed in as an integrator."""
     with TestClient(build_app(site), raise_server_exceptions=False) as client:
