@@ -60,3 +60,17 @@ def test_a_box_request_is_served_by_that_box_alone() -> None:
     wishes.left(BoxId("b1"), None, 2.0)
     (wish,) = wishes
     assert (wish.served, wish.boxes_before) == (2.0, 1)
+
+
+def test_a_wish_that_is_told_again_under_its_key_is_one_wish() -> None:
+    """Also one that was cancelled meanwhile; wishes without a key are all different ones."""
+    wish = Request(priority=0.2, gtin=GTINS[0])
+    wishes = Wishes([])
+    for key in ("a", "b", "a"):
+        wishes.add(wish, key)
+    wishes.cancel("b")
+    wishes.add(wish, "b")
+    assert [(each.key, each.cancelled) for each in wishes] == [("a", False), ("b", True)]
+    wishes.add(wish)
+    wishes.add(wish)
+    assert len(wishes) == 4
