@@ -1,0 +1,107 @@
+"""An arm that loses boxes, leaves its path, meets a torque, or is stopped."""
+
+from collections.abc import Callable
+
+from depal.domain import Joints
+from depal.errors import DeviceError
+from depal.executive.clock import Clock
+from depal.ports import Arm, Guard, Trajectory, Watch
+from depal.simulation.devices.safety import SimulatedSafety
+from depal.simulation.faults.catalogue import Phase
+from depal.simulation.faults.chances import Chances
+from depal.simulation.world import World
+
+PATH = "the arm has left its path by more than it may (-4)"
+TORQUE = "the arm met a torque that it did not expect, and waits for a person"
+
+
+class FaultyArm:
+    """G3, M5, M6 and M7 strike while it moves, M6 and M7 until a person has seen to them."""
+
+    def __init__(
+        self, arm: Arm, world: World, clock: Clock, safety: SimulatedSafety, chances: Chances
+    ) -> None:
+        """An arm of this world in which faults strike."""
+        self._arm, self._world, self._clock = arm, world, clock
+        self._safety, self._chances = safety, chances
+        self._lifted: int | None = None
+        self._torque = False
+
+    def joints(self) -> Joints:
+        """Where the axes are [rad]."""
+        return self._arm.joints()
+
+    def load(self) -> float:
+        """What hangs on the flange [kg]."""
+        return self._arm.load()
+
+    def acknowledged(self) -> None:
+        """A person has seen to what stopped it."""
+        self._torque = False
+
+    async def follow(self, trajectory: Trajectory, guard: Guard | None = None) -> str | None:
+        """Moves, unless something happens on the way.
+
+        Raises:
+            DeviceError: as the arm does; and where it has left its path or met a torque.
+        """
+        if self._torque:
+            raise DeviceError(TORQUE)
+        phase, box = self._phase(guard)
+        doing = None if phase is None else self._struck(phase, box)
+        if doing is None:
+            return await self._arm.follow(trajectory, guard)
+        share = float(self._chances.dice(1).uniform(0.1, 0.9))
+        when = self._clock.now() + share * trajectory.duration
+        said: list[str] = []
+
+        def watched() -> str | None:
+            if not said and self._clock.now() >= when:
+                said.append(doing() or "")
+            return (said[0] if said else "") or (guard() if guard is not None else None)
+
+        reason = await self._arm.follow(trajectory, watched)
+        if reason in {PATH, TORQUE}:
+            raise DeviceError(reason)
+        return reason
+
+    def _phase(self, guard: Guard | None) -> tuple[Phase | None, int | None]:
+        """What this motion is; the lift belongs to the grasp, in which nothing strikes the arm."""
+        held = self._world.suction.held_boxes
+        if not held:
+            self._lifted = None
+            return Phase.REACH, None
+        box = held[0]
+        if box != self._lifted:
+            self._lifted = box
+            self._chances.step += 1
+            return None, box
+        watch = getattr(guard, "watch", None)
+        lowering = isinstance(watch, Watch) and watch.load is not None
+        return Phase.PLACE if lowering else Phase.CARRY, box
+
+    def _struck(self, phase: Phase, box: int | None) -> Callable[[], str | None] | None:
+        """What happens during this motion."""
+        doings = {"G3": self._drop, "M5": _leave, "M6": self._meet, "M7": self._stop}
+        for name, doing in doings.items():
+            if (name != "G3" or box is not None) and self._chances.strikes(name, phase, box):
+                return doing
+        return None
+
+    def _drop(self) -> str | None:
+        for box in self._world.suction.held_boxes:
+            self._world.suction.detach(box, self._world.now)
+        self._world.wake()
+        return None
+
+    def _meet(self) -> str | None:
+        self._torque = True
+        return TORQUE
+
+    def _stop(self) -> str | None:
+        self._safety.stopped = True
+        return None
+
+
+def _leave() -> str | None:
+    return PATH

@@ -1,0 +1,49 @@
+"""Bays whose trolleys are not where they should be."""
+
+from collections.abc import Sequence
+
+from depal.domain import PlaceId, StorageKind
+from depal.executive.clock import Clock
+from depal.ports import Bays
+from depal.simulation.faults.catalogue import Phase
+from depal.simulation.faults.chances import Chances
+from depal.simulation.faults.plan import Struck
+from depal.simulation.referee import Referee
+from depal.simulation.world import World
+
+
+class FaultyBays:
+    """T1: the empty trolley that a box is meant for is pulled out, and put back later."""
+
+    def __init__(self, bays: Bays, world: World, clock: Clock, chances: Chances) -> None:
+        """Bays of this world."""
+        self._bays, self._world, self._clock, self._chances = bays, world, clock, chances
+        self._referee = Referee(world)
+        self._out: dict[str, tuple[str, Struck]] = {}
+
+    def trolley(self, bay: str) -> str | None:
+        """The name of the trolley that stands locked in the bay."""
+        self.put_back()
+        return self._bays.trolley(bay)
+
+    def put_back(self) -> None:
+        """Trolleys that were away for long enough stand in their bays again."""
+        for bay, (name, struck) in list(self._out.items()):
+            if self._clock.now() >= struck.until:
+                del self._out[bay]
+                if self._world.bays[bay] is None:
+                    self._world.show_storage(bay, trolley=name)
+
+    def asked_for(self, places: Sequence[PlaceId]) -> None:
+        """The store has named places: the trolley of the first may be gone."""
+        storage = self._world.layout.storage(places[0]) if places else None
+        if storage is None or storage.kind is not StorageKind.TROLLEY:
+            return
+        name = self._world.bays[storage.id]
+        used = any(truth.where.startswith(f"{storage.id}/") for truth in self._referee.boxes())
+        if name is None or used or self._world.suction.held_boxes:
+            return  # a trolley that boxes stand in, or are on their way to, is another fault
+        struck = self._chances.strikes("T1", Phase.QUERY)
+        if struck is not None:
+            self._out[storage.id] = (name, struck)
+            self._world.show_storage(storage.id, trolley=None)
