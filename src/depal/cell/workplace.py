@@ -11,6 +11,7 @@ from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.feedback import Feedback
 from depal.cell.gate import Gate
 from depal.cell.hand import Hand, Phase
+from depal.cell.outbox import Outbox
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
@@ -167,6 +168,7 @@ class Workplace:
         questions: to the supervising person.
         impossible: products that the arm cannot handle, and why.
         pile: what stands on the pallet.
+        outbox: what the store's system is to be told.
         wishes: what is wanted.
         departures: what became of the boxes.
         runtime: the executive; set once it is bound.
@@ -191,6 +193,7 @@ class Workplace:
     questions: Questions
     impossible: Mapping[Gtin, str] = field(default_factory=dict)
     pile: Pile = field(init=False)
+    outbox: Outbox = field(init=False)
     wishes: Wishes = field(default_factory=lambda: Wishes(()))
     departures: Departures = field(default_factory=Departures)
     held: Held | None = None
@@ -211,6 +214,7 @@ class Workplace:
 
     def __post_init__(self) -> None:
         """The pile stands on the cell's pallet."""
+        self.outbox = Outbox(self.ports.store)
         self.pile = Pile(Deck.of(self.layout.pallet.cell_from_pallet))
 
     def bind(self, runtime: Runtime) -> None:

@@ -185,6 +185,18 @@ class Carrying:
         back = motion.positions[inside : row + 1][::-1].copy()
         return self._planner.timing.along([Part(Kind.STRAIGHT, rebased(back, here))])
 
+    def descent(self, plan: CarryPlan) -> Trajectory | None:
+        """The plan's way down, or what is left of it where the arm has stopped on it."""
+        here, motion = self._planner.here, plan.descent
+        row = int(np.argmin(np.abs(motion.positions - here).max(axis=1)))
+        if not row:
+            return motion
+        rest = motion.positions[row:].copy()
+        if len(rest) < 2:  # noqa: PLR2004 - a path has two ends
+            return None
+        part = Part(Kind.STRAIGHT, rebased(rest, here), touching=True)
+        return self._planner.timing.slowly(part, self._planner.holding(plan.load))
+
     def retreat(self, plan: CarryPlan) -> Trajectory | None:
         """Straight out of the place from where the arm has come to rest."""
         part = Part(Kind.STRAIGHT, rebased(plan.retreat, self._planner.here))

@@ -1,5 +1,8 @@
 """The primitive of `query`: where the box goes, by the store's list and the room there is."""
 
+import asyncio
+
+from depal.cell.outbox import DEADLINE
 from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId, StorageKind
@@ -23,7 +26,7 @@ class Querying:
         product = work.product_of(box)
         if product is None:
             return Report(outcome=Outcome.FAILED, reason="its product is not on the note")
-        places = await work.ports.store.places_for(product.gtin)
+        places = await asyncio.wait_for(work.ports.store.places_for(product.gtin), DEADLINE)
         if not places:
             reason = f"the store knows no place for product {product.gtin}"
             return Report(outcome=Outcome.FAILED, reason=reason)

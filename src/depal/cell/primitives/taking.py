@@ -1,9 +1,11 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
 import asyncio
+from contextlib import suppress
 
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
+from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
@@ -139,8 +141,9 @@ class Taking:
         ports, box = self._work.ports, plan.box.id
         await ports.gripper.release()
         self._work.lets_go()
-        for retreat in self._desk.picking.way_back(plan):
-            await ports.arm.follow(retreat)
+        with suppress(HaltedError):  # it has drawn back by itself
+            for retreat in self._desk.picking.way_back(plan):
+                await ports.arm.follow(retreat)
         self._desk.promises.forget_pick(box)
         failed = self._work.doubted.get(box, frozenset())
         self._work.doubted[box] = failed | {plan.grasp.approach}
