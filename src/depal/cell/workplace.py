@@ -11,6 +11,7 @@ from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.feedback import Feedback
 from depal.cell.gate import Gate
 from depal.cell.hand import Hand, Phase
+from depal.cell.modules import Modules
 from depal.cell.outbox import Outbox
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
@@ -179,6 +180,7 @@ class Workplace:
         tries: how often the gripper had no hold of a box that it was at.
         strangers: what the reader saw on boxes that are not on the note.
         seen_to: whether a person has looked for what the note promises and no look shows.
+        modules: of the gripper, and which of them are dead.
         feedback: told what the work finds out about boxes.
         hand: the physical step that the box in the gripper is in.
         keep: writes what must not be forgotten; called before and after every such step.
@@ -203,6 +205,7 @@ class Workplace:
     tries: dict[BoxId, int] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     seen_to: bool = False
+    modules: Modules = field(default_factory=Modules)
     feedback: Feedback = field(default_factory=Feedback)
     hand: Hand | None = None
     keep: Callable[[], None] = nothing_kept

@@ -195,12 +195,18 @@ async def _run(
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
-        await controller.empty_pallet(job.requests)
+        async with asyncio.timeout(job.horizon):
+            await controller.empty_pallet(job.requests)
     filming.cancel()
     film.take()
     _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
     outcome = _outcome(job, work, desk, cell, keeper, wired.times)
-    outcome = replace(outcome, struck=injection.struck)
+    outcome = replace(
+        outcome,
+        struck=injection.struck,
+        motions=tuple(injection.arm.began),
+        most_held=injection.arm.most_held,
+    )
     return replace(outcome, scores=scores.scores), film
 
 

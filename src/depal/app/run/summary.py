@@ -56,6 +56,8 @@ class Outcome:
         events_sha256: of the event log.
         scores: of the first selection in which a request counts.
         struck: the faults that have struck.
+        motions: when each motion of the arm began [s].
+        most_held: how many boxes hung on the arm together.
     """
 
     delivery: str
@@ -80,6 +82,8 @@ class Outcome:
     events_sha256: str
     scores: Scores | None = None
     struck: tuple[Struck, ...] = ()
+    motions: tuple[float, ...] = ()
+    most_held: int = 0
 
     @property
     def stored(self) -> int:

@@ -71,6 +71,7 @@ class Job:
         impossible: products that the arm cannot handle, and why; their cases go to a person.
         note: what the cell is told instead of the delivery's own note.
         faults: what is to strike.
+        horizon: a run that has not ended by then is broken off [s]; None for never.
     """
 
     layout: CellLayout
@@ -86,6 +87,7 @@ class Job:
     named: tuple[tuple[BoxId, Vector3], ...] = ()
     note: Delivery | None = None
     faults: FaultPlan = field(default_factory=FaultPlan)
+    horizon: float | None = None
 
     @property
     def told(self) -> Delivery:

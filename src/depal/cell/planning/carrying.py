@@ -158,13 +158,15 @@ class Carrying:
         """The motion of the held box into a place, from where it is."""
         promises = self._promises
         kept, here = promises.carry_of(box), self._planner.here
-        if kept is not None and kept.place == place and stands_at(here, kept.motion.start):
+        there = self._open((place,)) if place != ASIDE else [place]
+        good = kept is not None and kept.place == place and bool(there)
+        if kept is not None and good and stands_at(here, kept.motion.start):
             promises.next_start = kept.end
             return kept
         promises.release(box)
-        there = self._places_named(place)
+        named = self._places_named(place)
         elsewhere = () if place == ASIDE else self._lists.get(box, ())
-        return await self.find_place(box, (*there, *(p for p in elsewhere if p not in there)))
+        return await self.find_place(box, (*named, *(p for p in elsewhere if p not in named)))
 
     def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
         """The place itself, or all of the storage that boxes are set aside into."""

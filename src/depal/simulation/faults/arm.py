@@ -16,7 +16,12 @@ TORQUE = "the arm met a torque that it did not expect, and waits for a person"
 
 
 class FaultyArm:
-    """G3, M5, M6 and M7 strike while it moves, M6 and M7 until a person has seen to them."""
+    """G3, M5, M6 and M7 strike while it moves, M6 and M7 until a person has seen to them.
+
+    Attributes:
+        began: when each motion began [s], for the referee.
+        most_held: so many boxes hung on it together when a motion began.
+    """
 
     def __init__(
         self, arm: Arm, world: World, clock: Clock, safety: SimulatedSafety, chances: Chances
@@ -26,6 +31,8 @@ class FaultyArm:
         self._safety, self._chances = safety, chances
         self._lifted: int | None = None
         self._torque = False
+        self.began: list[float] = []
+        self.most_held = 0
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
@@ -47,6 +54,9 @@ class FaultyArm:
         """
         if self._torque:
             raise DeviceError(TORQUE)
+        if not self._safety.state().stopped:
+            self.began.append(self._clock.now())
+        self.most_held = max(self.most_held, len(self._world.suction.held_boxes))
         phase, box = self._phase(guard)
         doing = None if phase is None else self._struck(phase, box)
         if doing is None:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from depal.domain import PlaceId, StorageKind
+from depal.domain import Gtin, PlaceId, StorageKind
 from depal.executive.clock import Clock
 from depal.ports import Bays
 from depal.simulation.faults.catalogue import Phase
@@ -19,6 +19,7 @@ class FaultyBays:
         """Bays of this world."""
         self._bays, self._world, self._clock, self._chances = bays, world, clock, chances
         self._referee = Referee(world)
+        self._places: dict[Gtin, tuple[PlaceId, ...]] = {}
         self._out: dict[str, tuple[str, Struck]] = {}
 
     def trolley(self, bay: str) -> str | None:
@@ -34,16 +35,21 @@ class FaultyBays:
                 if self._world.bays[bay] is None:
                     self._world.show_storage(bay, trolley=name)
 
-    def asked_for(self, places: Sequence[PlaceId]) -> None:
-        """The store has named places: the trolley of the first may be gone."""
+    def asked_for(self, gtin: Gtin, places: Sequence[PlaceId]) -> None:
+        """The store has named the places of a product."""
+        self._places[gtin] = tuple(places)
+
+    def grasped(self, box: int) -> None:
+        """A box comes into the hand: the trolley that it is meant for may be gone."""
+        places = self._places.get(self._world.cases[box].gtin)
         storage = self._world.layout.storage(places[0]) if places else None
         if storage is None or storage.kind is not StorageKind.TROLLEY:
             return
         name = self._world.bays[storage.id]
         used = any(truth.where.startswith(f"{storage.id}/") for truth in self._referee.boxes())
-        if name is None or used or self._world.suction.held_boxes:
-            return  # a trolley that boxes stand in, or are on their way to, is another fault
-        struck = self._chances.strikes("T1", Phase.QUERY)
+        if name is None or used:
+            return  # a trolley that boxes stand in is another fault
+        struck = self._chances.strikes("T1", Phase.GRASP, box)
         if struck is not None:
             self._out[storage.id] = (name, struck)
             self._world.show_storage(storage.id, trolley=None)

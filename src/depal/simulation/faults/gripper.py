@@ -1,6 +1,7 @@
 """A gripper whose vacuum does not come."""
 
 import asyncio
+from collections.abc import Callable
 
 from depal.domain import Cup
 from depal.ports import Gripper
@@ -15,9 +16,12 @@ LEAKING = 0.25
 class FaultyGripper:
     """G1: the vacuum does not come, once or more often. G7: a module gives none any more."""
 
-    def __init__(self, gripper: Gripper, world: World, chances: Chances) -> None:
-        """A gripper of this world in which faults strike."""
+    def __init__(
+        self, gripper: Gripper, world: World, chances: Chances, grasped: Callable[[int], None]
+    ) -> None:
+        """A gripper of this world in which faults strike; `grasped` hears of every box."""
         self._gripper, self._world, self._chances = gripper, world, chances
+        self._grasped = grasped
         self._dead = ""
 
     def vacuum(self) -> dict[str, float]:
@@ -40,7 +44,9 @@ class FaultyGripper:
         suction = self._world.suction
         under = sorted(set(suction.boxes_under(cups).tolist()) - {-1})
         box = under[0] if under else None
-        self._dead = self._dead_module(cups, box)
+        if box is not None:
+            self._grasped(box)
+        self._dead = self._dead_module(box)
         live = tuple(cup for cup in cups if cup[0] != self._dead)
         if not live:
             await asyncio.sleep(self._world.layout.tool.suction.rise)
@@ -56,9 +62,9 @@ class FaultyGripper:
         """Vents."""
         await self._gripper.release()
 
-    def _dead_module(self, cups: tuple[Cup, ...], box: int | None) -> str:
-        """The module that died; one of those in use, where it dies now."""
+    def _dead_module(self, box: int | None) -> str:
+        """The module that died, or dies now."""
         if self._chances.lasts("G7", Phase.GRASP, box) is None:
             return ""
-        used = sorted({name for name, _ in cups})
-        return self._dead or used[int(self._chances.dice(2).integers(len(used)))]
+        names = [module.name for module in self._world.layout.tool.modules]
+        return self._dead or names[int(self._chances.dice(2).integers(len(names)))]

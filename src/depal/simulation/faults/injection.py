@@ -51,12 +51,13 @@ class Injection:
             clock: of the cell.
         """
         world, chances = cell.world, Chances(plan, seed, clock.now)
+        bays = FaultyBays(cell.bays, world, clock, chances)
         arm = FaultyArm(cell.arm, world, clock, cell.safety, chances)
         return cls(
             chances,
             arm,
-            FaultyGripper(cell.gripper, world, chances),
-            FaultyBays(cell.bays, world, clock, chances),
+            FaultyGripper(cell.gripper, world, chances, bays.grasped),
+            bays,
             MendingPerson(cell.person, cell.safety, chances, arm.acknowledged),
             FaultyReader(cell.reader, world, chances),
             tuple(FaultyCamera(camera, chances) for camera in cell.cameras),

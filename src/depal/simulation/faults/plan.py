@@ -4,7 +4,12 @@ import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+import numpy as np
+
 from depal.simulation.faults.catalogue import CATALOGUE, Phase
+
+LIFTED = frozenset({Phase.CARRY, Phase.PLACE, Phase.READ, Phase.TELL})
+"""In these phases a box has been lifted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +74,20 @@ class FaultPlan:
     def of(cls, *ids: str) -> "FaultPlan":
         """Each of these once, at its first chance."""
         return cls(tuple(map(Fault, ids)))
+
+    @classmethod
+    def at_random(cls, fault_id: str, seed: int, boxes: int) -> "FaultPlan":
+        """One fault, at a step and in a phase of a seed.
+
+        Args:
+            fault_id: in the catalogue.
+            seed: of step and phase.
+            boxes: so many boxes will be lifted, if all goes well.
+        """
+        random, phases = np.random.default_rng([seed, 9]), CATALOGUE[fault_id].phases
+        phase = phases[int(random.integers(len(phases)))]
+        step = int(random.integers(boxes)) + (phase in LIFTED)
+        return cls((Fault(fault_id, When(step=step, phase=phase)),))
 
     @property
     def ids(self) -> frozenset[str]:

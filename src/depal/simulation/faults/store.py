@@ -15,14 +15,14 @@ SILENCE = 1.0
 
 
 class FaultyStore:
-    """W1 to W3 and W6; the trolley of T1 is gone when the cell asks for its place."""
+    """W1 to W3 and W6."""
 
     def __init__(
         self,
         store: StoreSystem,
         clock: Clock,
         chances: Chances,
-        told: Callable[[tuple[PlaceId, ...]], None],
+        told: Callable[[Gtin, tuple[PlaceId, ...]], None],
     ) -> None:
         """A store whose answers may fail; `told` hears of every answer that names places."""
         self._store, self._clock, self._chances, self._told = store, clock, chances, told
@@ -39,7 +39,7 @@ class FaultyStore:
         if self._chances.lasts("W6", Phase.QUERY) is not None:
             return ()
         places = await self._store.places_for(gtin)
-        self._told(places)
+        self._told(gtin, places)
         return places
 
     async def moved(self, movement: Movement) -> None:
