@@ -34,10 +34,10 @@ class Outbox:
 
     async def emptied(self, within: float) -> bool:
         """Waits until everything is told, for so long at the most [s]; whether it is."""
-        if self._telling is not None:
-            await asyncio.wait([self._telling], timeout=within)
-            if not self._telling.done():
-                self._telling.cancel()
+        telling = self._telling
+        if telling is not None:
+            await asyncio.wait([telling], timeout=within)
+            telling.cancel()
         return not self._waiting
 
     async def _tell_all(self) -> None:

@@ -179,6 +179,7 @@ class Workplace:
         doubted: boxes that were not as they looked: they are looked at before another try.
         tries: how often the gripper had no hold of a box that it was at.
         strangers: what the reader saw on boxes that are not on the note.
+        homeless: boxes for which the store's system has named no place.
         seen_to: whether a person has looked for what the note promises and no look shows.
         modules: of the gripper, and which of them are dead.
         feedback: told what the work finds out about boxes.
@@ -204,6 +205,7 @@ class Workplace:
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
     tries: dict[BoxId, int] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
+    homeless: set[BoxId] = field(default_factory=set)
     seen_to: bool = False
     modules: Modules = field(default_factory=Modules)
     feedback: Feedback = field(default_factory=Feedback)

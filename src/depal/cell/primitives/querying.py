@@ -33,10 +33,10 @@ class Querying:
             return Report(outcome=Outcome.FAILED, reason="its product is not on the note")
         places = await self._asked(product.gtin)
         if places is None:
-            return Report(outcome=Outcome.FAILED, reason="the store's system does not answer")
+            return self._homeless(box, "the store's system does not answer")
         if not places:
-            reason = f"the store knows no place for product {product.gtin}"
-            return Report(outcome=Outcome.FAILED, reason=reason)
+            return self._homeless(box, f"the store knows no place for product {product.gtin}")
+        work.homeless.discard(box)
         reason = "no place was tried"
         for _ in range(1 + len(work.layout.storages)):
             found = await self._desk.carrying.find_place(box, places)
@@ -60,6 +60,11 @@ class Querying:
                 return await asyncio.wait_for(places_for(gtin), DEADLINE)
             await asyncio.sleep(pause)
         return None
+
+    def _homeless(self, box: BoxId, reason: str) -> Report:
+        """Asked again, then set aside, whether it is in the hand by then or not."""
+        self._work.homeless.add(box)
+        return Report(outcome=Outcome.FAILED, reason=reason)
 
     def _to_exchange(self, places: tuple[PlaceId, ...]) -> str | None:
         """The first trolley of the list that holds something."""
