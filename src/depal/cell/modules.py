@@ -1,4 +1,4 @@
-"""Which suction modules work: one that gives no vacuum at box after box is not used any more."""
+"""Which suction modules work: one that gives no vacuum at box after box is used last."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field

@@ -101,6 +101,11 @@ class SuctionState:
         for name in self._valves:
             self._head_for(name, 0.0, now, self.tool.suction.vent)
 
+    def stick(self, box: int, to: int) -> None:
+        """A fault: a box comes along with one that the cups hold."""
+        cups = next(hold.cups for hold in self.holds if hold.box == to)
+        self._weld(cups, box)
+
     def detach(self, box: int, now: float) -> None:
         """Pulls a box off the cups; they leak from now on."""
         for hold in [hold for hold in self.holds if hold.box == box]:

@@ -106,7 +106,11 @@ class Picking:
         dead = work.modules.dead | work.modules.suspects(box.id, work.tries.get(box.id, 0))
         key = (box.shape.size, mass, axis, bool(toward[axis] > 0), dead)
         if key not in self._offered:
-            self._offered[key] = grasps(box.shape, mass, work.layout.tool, front, dead)
+            ways = grasps(box.shape, mass, work.layout.tool, front)
+            if dead:  # they come last: where nothing else reaches, they are tried again
+                live = grasps(box.shape, mass, work.layout.tool, front, dead)
+                ways = tuple(dict.fromkeys((*live, *ways)))
+            self._offered[key] = ways
         return self._offered[key]
 
     def masses(self, box: Perceived) -> tuple[float | None, float | None]:

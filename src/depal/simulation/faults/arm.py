@@ -9,10 +9,15 @@ from depal.ports import Arm, Guard, Trajectory, Watch
 from depal.simulation.devices.safety import SimulatedSafety
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
+from depal.simulation.faults.pile import FaultyPile
+from depal.simulation.faults.plan import Struck
 from depal.simulation.world import World
 
 PATH = "the arm has left its path by more than it may (-4)"
 TORQUE = "the arm met a torque that it did not expect, and waits for a person"
+
+ANY, EARLY = (0.1, 0.9), (0.05, 0.25)
+"""In this part of a motion something happens; a box that is set down stands before its end."""
 
 
 class FaultyArm:
@@ -20,15 +25,21 @@ class FaultyArm:
 
     Attributes:
         began: when each motion began [s], for the referee.
-        most_held: so many boxes hung on it together when a motion began.
+        most_held: so many boxes hung on it together when a motion after the lift began.
     """
 
     def __init__(
-        self, arm: Arm, world: World, clock: Clock, safety: SimulatedSafety, chances: Chances
+        self,
+        arm: Arm,
+        world: World,
+        clock: Clock,
+        safety: SimulatedSafety,
+        chances: Chances,
+        pile: FaultyPile,
     ) -> None:
         """An arm of this world in which faults strike."""
         self._arm, self._world, self._clock = arm, world, clock
-        self._safety, self._chances = safety, chances
+        self._safety, self._chances, self._pile = safety, chances, pile
         self._lifted: int | None = None
         self._torque = False
         self.began: list[float] = []
@@ -56,12 +67,17 @@ class FaultyArm:
             raise DeviceError(TORQUE)
         if not self._safety.state().stopped:
             self.began.append(self._clock.now())
-        self.most_held = max(self.most_held, len(self._world.suction.held_boxes))
         phase, box = self._phase(guard)
-        doing = None if phase is None else self._struck(phase, box)
-        if doing is None:
+        if phase is Phase.REACH:
+            self._pile.reached_for(trajectory.end)
+        elif phase is not None:
+            self.most_held = max(self.most_held, len(self._world.suction.held_boxes))
+        found = None if phase is None else self._struck(phase, box)
+        if found is None:
             return await self._arm.follow(trajectory, guard)
-        share = float(self._chances.dice(1).uniform(0.1, 0.9))
+        struck, doing = found
+        early, late = EARLY if phase is Phase.PLACE else ANY
+        share = float(self._chances.dice(1).uniform(early, late))
         when = self._clock.now() + share * trajectory.duration
         said: list[str] = []
 
@@ -70,7 +86,11 @@ class FaultyArm:
                 said.append(doing() or "")
             return (said[0] if said else "") or (guard() if guard is not None else None)
 
-        reason = await self._arm.follow(trajectory, watched)
+        try:
+            reason = await self._arm.follow(trajectory, watched)
+        finally:
+            if not said:
+                self._chances.take_back(struck)
         if reason in {PATH, TORQUE}:
             raise DeviceError(reason)
         return reason
@@ -90,12 +110,15 @@ class FaultyArm:
         lowering = isinstance(watch, Watch) and watch.load is not None
         return Phase.PLACE if lowering else Phase.CARRY, box
 
-    def _struck(self, phase: Phase, box: int | None) -> Callable[[], str | None] | None:
+    def _struck(
+        self, phase: Phase, box: int | None
+    ) -> tuple[Struck, Callable[[], str | None]] | None:
         """What happens during this motion."""
         doings = {"G3": self._drop, "M5": _leave, "M6": self._meet, "M7": self._stop}
         for name, doing in doings.items():
-            if (name != "G3" or box is not None) and self._chances.strikes(name, phase, box):
-                return doing
+            struck = self._chances.strikes(name, phase, box)
+            if struck is not None:
+                return struck, doing
         return None
 
     def _drop(self) -> str | None:

@@ -1,6 +1,6 @@
 """Bays whose trolleys are not where they should be."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from depal.domain import Gtin, PlaceId, StorageKind
 from depal.executive.clock import Clock
@@ -13,12 +13,20 @@ from depal.simulation.world import World
 
 
 class FaultyBays:
-    """T1: the empty trolley that a box is meant for is pulled out, and put back later."""
+    """T1: the empty trolley that a box is meant for is pulled out, and put back later. T3."""
 
-    def __init__(self, bays: Bays, world: World, clock: Clock, chances: Chances) -> None:
-        """Bays of this world."""
+    def __init__(
+        self,
+        bays: Bays,
+        world: World,
+        clock: Clock,
+        chances: Chances,
+        take: Callable[[int], None],
+    ) -> None:
+        """Bays of this world; `take` takes a box out of the cell."""
         self._bays, self._world, self._clock, self._chances = bays, world, clock, chances
         self._referee = Referee(world)
+        self._take = take
         self._places: dict[Gtin, tuple[PlaceId, ...]] = {}
         self._out: dict[str, tuple[str, Struck]] = {}
 
@@ -35,6 +43,19 @@ class FaultyBays:
                 if self._world.bays[bay] is None:
                     self._world.show_storage(bay, trolley=name)
 
+    def _exchange(self, box: int, places: Sequence[PlaceId] | None) -> None:
+        """Somebody takes a trolley with its boxes away and brings an empty one (T3)."""
+        bays = dict.fromkeys(place.split("/")[0] for place in places or ())
+        layout = self._world.layout
+        trolleys = {s.id for s in layout.storages if s.kind is StorageKind.TROLLEY}
+        bay = next((bay for bay in bays if bay in trolleys), None)
+        if bay is None or self._chances.strikes("T3", Phase.GRASP, box) is None:
+            return
+        for truth in self._referee.boxes():
+            if truth.where.startswith(f"{bay}/"):
+                self._take(truth.index)
+        self._world.show_storage(bay, trolley=f"{bay}#unasked")
+
     def asked_for(self, gtin: Gtin, places: Sequence[PlaceId]) -> None:
         """The store has named the places of a product."""
         self._places[gtin] = tuple(places)
@@ -42,6 +63,7 @@ class FaultyBays:
     def grasped(self, box: int) -> None:
         """A box comes into the hand: the trolley that it is meant for may be gone."""
         places = self._places.get(self._world.cases[box].gtin)
+        self._exchange(box, places)
         storage = self._world.layout.storage(places[0]) if places else None
         if storage is None or storage.kind is not StorageKind.TROLLEY:
             return

@@ -63,6 +63,11 @@ class Chances:
                 return struck
         return self.strikes(fault_id, phase, box)
 
+    def take_back(self, struck: Struck) -> None:
+        """It did not happen after all: there will be another chance."""
+        self.struck.remove(struck)
+        self._over.discard(self._plan.faults.index(struck.fault))
+
     def mended(self, ids: Iterable[str]) -> None:
         """A person has seen to it: what lasts of these is over."""
         now, known = self._now(), frozenset(ids)

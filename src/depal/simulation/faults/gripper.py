@@ -7,6 +7,7 @@ from depal.domain import Cup
 from depal.ports import Gripper
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
+from depal.simulation.faults.pile import FaultyPile
 from depal.simulation.world import World
 
 LEAKING = 0.25
@@ -17,9 +18,15 @@ class FaultyGripper:
     """G1: the vacuum does not come, once or more often. G7: a module gives none any more."""
 
     def __init__(
-        self, gripper: Gripper, world: World, chances: Chances, grasped: Callable[[int], None]
+        self,
+        gripper: Gripper,
+        world: World,
+        chances: Chances,
+        pile: FaultyPile,
+        grasped: Callable[[int], None],
     ) -> None:
         """A gripper of this world in which faults strike; `grasped` hears of every box."""
+        self._pile = pile
         self._gripper, self._world, self._chances = gripper, world, chances
         self._grasped = grasped
         self._dead = ""
@@ -46,6 +53,7 @@ class FaultyGripper:
         box = under[0] if under else None
         if box is not None:
             self._grasped(box)
+            self._pile.grasped(box)
         self._dead = self._dead_module(box)
         live = tuple(cup for cup in cups if cup[0] != self._dead)
         if not live:
@@ -54,9 +62,12 @@ class FaultyGripper:
         leaks = bool(under) and self._chances.lasts("G1", Phase.GRASP, box) is not None
         suction.supply = LEAKING if leaks else 1.0
         try:
-            return await self._gripper.suck(live) and len(live) == len(cups)
+            came = await self._gripper.suck(live) and len(live) == len(cups)
         finally:
             suction.supply = 1.0
+        if came and suction.held_boxes:
+            self._pile.sticks(suction.held_boxes[0])
+        return came
 
     async def release(self) -> None:
         """Vents."""

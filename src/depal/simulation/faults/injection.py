@@ -10,6 +10,7 @@ from depal.simulation.faults.bays import FaultyBays
 from depal.simulation.faults.chances import Chances
 from depal.simulation.faults.gripper import FaultyGripper
 from depal.simulation.faults.person import MendingPerson
+from depal.simulation.faults.pile import FaultyPile
 from depal.simulation.faults.plan import FaultPlan, Struck
 from depal.simulation.faults.reader import FaultyReader
 from depal.simulation.faults.sight import FaultyCamera, FaultySight
@@ -51,12 +52,13 @@ class Injection:
             clock: of the cell.
         """
         world, chances = cell.world, Chances(plan, seed, clock.now)
-        bays = FaultyBays(cell.bays, world, clock, chances)
-        arm = FaultyArm(cell.arm, world, clock, cell.safety, chances)
+        bays = FaultyBays(cell.bays, world, clock, chances, cell.person.take_away)
+        pile = FaultyPile(world, chances, plan)
+        arm = FaultyArm(cell.arm, world, clock, cell.safety, chances, pile)
         return cls(
             chances,
             arm,
-            FaultyGripper(cell.gripper, world, chances, bays.grasped),
+            FaultyGripper(cell.gripper, world, chances, pile, bays.grasped),
             bays,
             MendingPerson(cell.person, cell.safety, chances, arm.acknowledged),
             FaultyReader(cell.reader, world, chances),
