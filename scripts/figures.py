@@ -379,6 +379,47 @@ def tests() -> Iterator[Line]:
     )
 
 
+def script(name: str, *words: str) -> tuple[bool, str]:
+    """Runs a script beside this one: whether it was content, and its last words."""
+    done = subprocess.run(  # noqa: S603 - our own script
+        [sys.executable, str(ROOT / "scripts" / name), *words],
+        cwd=ROOT, check=False, capture_output=True, text=True,
+    )  # fmt: skip
+    told = " ".join(done.stdout.split("\n\n")[-1].split())
+    return done.returncode == 0, told[-300:] or done.stderr[-300:]
+
+
+def api() -> Iterator[Line]:
+    """`scripts/fuzz_api.py`: 20,000 generated requests."""
+    good, told = script("fuzz_api.py", "--requests", "20000", "--seed", "1")
+    figure = "0 server errors, 0 hangs, 2xx >= 20 each"
+    yield Line("20,000 generated requests to the API", figure, told.split("┘")[-1].strip(), good)
+
+
+def kills() -> Iterator[Line]:
+    """`scripts/kill_cell.py`: the controller killed 200 times."""
+    good, told = script("kill_cell.py", "--kills", "200")
+    what = "kill -9 of the controller, the world lives on"
+    yield Line(what, "nothing lost, doubled or booked wrongly", told, good)
+
+
+def served() -> Iterator[Line]:
+    """`scripts/measure_serve.py`: beside the simulation, with the camera."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "served.json"
+        script("measure_serve.py", "--seconds", "60", "--viewers", "2", "--json", str(path))
+        found: dict[str, float] = json.loads(path.read_text(encoding="utf-8"))
+    for what, name, target, unit in (
+        ("GET state at 50/s, p99", "state_p99_ms", 50.0, "ms"),
+        ("event to socket, p95", "event_p95_ms", 100.0, "ms"),
+        ("command to pixel, p95", "pixel_p95_ms", 500.0, "ms"),
+        ("server, per viewer", "cores_per_viewer", 0.3, "cores"),
+    ):
+        value = found[name]
+        said = f"{value:.3g} {unit}"
+        yield Line(f"a served cell: {what}", f"<= {target:g} {unit}", said, value <= target)
+
+
 MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     table1,
     selection,
@@ -396,6 +437,9 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     perception_normal,
     perception_hard,
     throughput,
+    api,
+    kills,
+    served,
     in_the_cell,
     tests,
 )

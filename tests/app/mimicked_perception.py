@@ -17,6 +17,7 @@ from depal.cell.sight import CameraSight, Eyes
 from depal.domain import DeliveryLine, Gtin
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox, Pose
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Look, SeenBox
 from depal.perception.memory import Memory
 from depal.perception.pictures import PictureBook
@@ -60,9 +61,10 @@ class Mimic:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
+        refuted: Refuted,
     ) -> Look:
         """What a look finds."""
-        del frames, expected, book, before
+        del frames, expected, book, before, refuted
         number, self.looks = self.looks, self.looks + 1
         sight = TruthSight(self.cell.world, _Still(), SightSettings(share=self.failures.share))
         visible = sorted(sight.visible_boxes())

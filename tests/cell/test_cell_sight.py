@@ -14,6 +14,7 @@ from depal.domain import BoxId, DeliveryLine, Detection, Gtin, Product, Recognit
 from depal.errors import DeviceError
 from depal.executive.clock import LoopClock, run_simulated
 from depal.geometry import OrientedBox, Pose
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look, SeenBox
 from depal.perception.memory import Memory, Remembered
 from depal.perception.pictures import PictureBook, ProductPictures
@@ -56,6 +57,7 @@ class Script:
     rest: tuple[OrientedBox, ...] = ()
     asked: list[tuple[DeliveryLine, ...] | None] = field(default_factory=list)
     before: list[Look | None] = field(default_factory=list)
+    refuted: list[Refuted] = field(default_factory=list)
     learned: list[Gtin] = field(default_factory=list)
 
     def eyes(self) -> Eyes:
@@ -68,8 +70,10 @@ class Script:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
+        refuted: Refuted,
     ) -> Look:
         del frames, book
+        self.refuted.append(refuted)
         self.asked.append(expected)
         self.before.append(before)
         return Look(self.looks[min(len(self.asked), len(self.looks)) - 1])
@@ -182,6 +186,24 @@ def test_a_box_that_a_person_denies_does_not_come_back() -> None:
     looked(sight)
     sight.deny(BoxId("b1"))
     assert [box.id for box in looked(sight)[0][0].boxes] == ["b2"]
+
+
+def test_perception_is_told_what_is_no_box_and_relies_on_no_look_before() -> None:
+    """Something else explains what is seen there: also where the picture has not changed."""
+    script = Script([(seen(0.0), seen(0.5))])
+    sight = sight_of(script)
+    looked(sight)
+    sight.deny(BoxId("b1"))
+    looked(sight)
+    looked(sight)
+    no_box = Refuted((seen(0.5).shape,))
+    assert script.refuted == [Refuted(), no_box, no_box]
+    assert [before is None for before in script.before] == [True, True, False]
+    seam = OrientedBox.upright((1.4, 0.0, 0.3), (0.002, 0.3, 0.2))
+    sight.part(seam)
+    looked(sight)
+    assert script.refuted[-1] == Refuted((seen(0.5).shape,), (seam,))
+    assert script.before[-1] is None
 
 
 def test_a_detected_box_has_the_one_size_of_the_note_that_fits() -> None:

@@ -25,6 +25,7 @@ from depal.logistics import read_delivery
 from depal.ports import Trajectory
 from depal.ports.wire import messages as m
 from depal.ports.wire.codec import HEAD, LARGEST, encoded, packed, unpacked
+from depal.ports.wire.values import Photo
 
 T = TypeVar("T")
 
@@ -232,6 +233,7 @@ def test_what_is_no_message_ends_the_connection_and_nothing_else(
             body = await reader.readexactly(length)
             replies.append(msgspec.msgpack.decode(body, type=m.Reply))
         writer.close()
+        await writer.wait_closed()
         return replies
 
     for what, data in BAD.items():
@@ -241,7 +243,7 @@ def test_what_is_no_message_ends_the_connection_and_nothing_else(
     async def welcome() -> None:
         world = await built(tmp_path)
         with pytest.raises(DeviceError, match="there is no camera 9"):
-            await world._line.call(m.Take(9), m.Photo)  # noqa: SLF001 - no port says this
+            await world._line.call(m.Take(9), Photo)  # noqa: SLF001 - no port says this
         await world.close()
 
     within(card, welcome)

@@ -19,6 +19,7 @@ def test_the_package_hands_out_these_names() -> None:
     """A change here is a change for its users."""
     assert sorted(depal.logistics.__all__) == [
         "check_requests",
+        "deliveries_in",
         "delivery_schema",
         "read_deliveries",
         "read_delivery",

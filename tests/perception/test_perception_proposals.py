@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from depal.geometry import Pose
-from depal.perception.detecting import Expected, Finder, Printed
+from depal.perception.detecting import Expected, Finder, Printed, RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
 from depal.perception.proposals.kernels import FEATURES
@@ -154,3 +154,19 @@ def test_flush_faces_are_found_side_by_side_and_a_known_one_is_left_alone() -> N
         assert max(overlap(face, each.rectangle) for each in found) > 0.85
     rest = Finder().faces(raster, expected, prints, faces[:1])
     assert all(overlap(faces[0], each.rectangle) < 0.1 for each in rest)
+
+
+def test_two_faces_are_found_where_a_box_of_both_was_refuted() -> None:
+    """What looked like one long face is the next best thing that explains the place."""
+    pair = [Rectangle(0.3 + 0.2 * i, 0.3, 0.2, 0.16) for i in (0, 1)]
+    long = Rectangle(0.4, 0.3, 0.4, 0.16, 0.0, 0.3)
+    raster = raster_with(pair, contrast=0.6)
+    expected = Expected(((0.2, 0.16, 0.12), (0.4, 0.16, 0.12)))
+    prints = [Printed(long, Name("00000000000017", "top", 0.95, certain=False))]
+    finder = Finder()
+    believed = finder.faces(raster, expected, prints)
+    assert max(overlap(long, each.rectangle) for each in believed) > 0.85
+    found = finder.faces(raster, expected, prints, refuted=RefutedFaces((long,)))
+    assert all(overlap(long, each.rectangle) < 0.85 for each in found)
+    for face in pair:
+        assert max(overlap(face, each.rectangle) for each in found) > 0.85

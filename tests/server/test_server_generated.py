@@ -150,8 +150,10 @@ def test_of_two_people_who_answer_one_question_the_first_is_heard(client: TestCl
     path = "/api/v1/answers/1/product/b1/0-1"
     assert client.put(path, json={"choice": "none of them"}).status_code == 422
     assert client.put(path, json={"choice": "this"}).status_code == 200
+    client.post("/api/v1/sign-in", json={"name": "otto", "password": PASSWORD})
     second = client.put(path, json={"choice": "that"})
     assert second.status_code == 409
+    assert second.json()["detail"] == "ines has answered this question already: this"
 
 
 def test_events_go_on_after_the_last_one_that_was_heard(client: TestClient) -> None:

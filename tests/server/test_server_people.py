@@ -1,6 +1,7 @@
 """Accounts, sessions, tokens, codes, and the audit log, over time."""
 
 import sqlite3
+import threading
 from contextlib import closing
 from pathlib import Path
 
@@ -9,11 +10,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sites import PASSWORD, PEOPLE, Held, site_over
 
+from depal.server.people import accounts
 from depal.server.people.codes import LASTS
 from depal.server.people.limits import FREE, LONGEST, Limits
 from depal.server.people.sessions import IDLE
 from depal.server.people.sessions import LONGEST as SESSION
-from depal.server.problems import Conflict, Forbidden, NotFound, TooMany, Unusable
+from depal.server.problems import (
+    Conflict,
+    Forbidden,
+    NotFound,
+    SignInNeeded,
+    Stale,
+    TooMany,
+    Unusable,
+)
 from depal.server.roles import Principal, Role
 from depal.server.site import Site
 from depal.server.usecases import managing
@@ -89,6 +99,8 @@ def test_the_last_integrator_stays(site: Site) -> None:
         ("", Role.VIEWER, PASSWORD, "name"),
         ("a\nb", Role.VIEWER, PASSWORD, "name"),
         ("x" * 41, Role.VIEWER, PASSWORD, "name"),
+        ("a/b", Role.VIEWER, PASSWORD, "name"),
+        ("..", Role.VIEWER, PASSWORD, "name"),
         ("x", Role.SERVICE, PASSWORD, "role"),
         ("x", Role.VIEWER, "short", "password"),
         ("x", Role.VIEWER, "y" * 201, "password"),
@@ -140,7 +152,7 @@ def test_a_token_is_good_until_it_expires_or_is_revoked(site: Site) -> None:
 def told_to_wait(limits: Limits) -> float:
     """How long a try has to wait [s]; 0 where it is allowed."""
     try:
-        limits.check("anna", "1.2.3.4")
+        limits.attempt("anna", "1.2.3.4")
     except TooMany as answer:
         return answer.after or 0.0
     return 0.0
@@ -156,19 +168,18 @@ def test_whatever_the_clock_does_nobody_waits_longer_than_the_limit(jumps: list[
         wait = told_to_wait(limits)
         assert 0.0 <= wait <= LONGEST
         chance.time += wait
-        limits.check("anna", "1.2.3.4")
-        limits.failed("anna", "1.2.3.4")
+        if wait > 0.0:
+            limits.attempt("anna", "1.2.3.4")
 
 
 def test_an_address_that_guesses_many_names_has_to_wait_too() -> None:
     """Each name fails once, and the address is known."""
     limits = Limits(Held())
     for number in range(FREE["address"]):
-        limits.check(f"name {number}", "1.2.3.4")
-        limits.failed(f"name {number}", "1.2.3.4")
+        limits.attempt(f"name {number}", "1.2.3.4")
     with pytest.raises(TooMany):
-        limits.check("a new name", "1.2.3.4")
-    limits.check("a new name", "5.6.7.8")
+        limits.attempt("a new name", "1.2.3.4")
+    limits.attempt("a new name", "5.6.7.8")
 
 
 def test_every_command_is_in_the_log_without_secrets(site: Site) -> None:
@@ -186,6 +197,62 @@ def test_every_command_is_in_the_log_without_secrets(site: Site) -> None:
     ]
     assert not any(PASSWORD in line.detail for line in lines)
     assert '"name": "new"' in lines[0].detail
+
+
+def test_tries_at_once_are_as_many_as_one_after_the_other() -> None:
+    """Each counts before its password is looked at; the right one takes its own count back."""
+    limits = Limits(Held())
+    for _ in range(FREE["account"]):
+        limits.attempt("anna", "1.2.3.4")
+    with pytest.raises(TooMany):
+        limits.attempt("anna", "9.9.9.9")
+    for number in range(3 * FREE["address"]):
+        limits.attempt(f"good {number}", "5.6.7.8")
+        limits.succeeded(f"good {number}", "5.6.7.8")
+
+
+def test_passwords_are_checked_two_at_a_time(site: Site, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each takes 64 MB, and the controller runs on the same machine."""
+    monkeypatch.setattr(accounts, "PATIENCE", 0.0)
+    busy = threading.BoundedSemaphore(accounts.AT_ONCE)
+    monkeypatch.setattr(site.accounts, "_turns", busy)
+    with busy:
+        assert site.accounts.matches("vera", PASSWORD) is not None
+        with busy, pytest.raises(TooMany):
+            site.accounts.matches("vera", PASSWORD)
+    assert site.accounts.matches("vera", "wrong, and long") is None
+
+
+def test_who_is_told_to_wait_does_not_fill_the_audit_log(site: Site) -> None:
+    """The failures that led to it are there, and nothing more."""
+    for _ in range(FREE["account"]):
+        with pytest.raises(SignInNeeded):
+            managing.sign_in(site, None, "vera", "wrong, and long", "1.2.3.4")
+    for _ in range(50):
+        with pytest.raises(TooMany):
+            managing.sign_in(site, None, "vera", PASSWORD, "1.2.3.4")
+    assert len(site.audit.list()) == FREE["account"]
+
+
+def test_guessing_the_first_code_gets_slower_too(tmp_path: Path) -> None:
+    """By address; anybody may ask for it."""
+    site = site_over(tmp_path, busy=False)
+    for _ in range(FREE["address"]):
+        with pytest.raises(Conflict):
+            managing.make_first_account(site, None, "guess", "x", PASSWORD, "1.2.3.4")
+    with pytest.raises(TooMany):
+        managing.make_first_account(site, None, "guess", "x", PASSWORD, "1.2.3.4")
+
+
+def test_of_two_who_change_a_person_the_second_sees_what_the_first_did(site: Site) -> None:
+    """By the version that each has seen."""
+    changed = site.accounts.change("otto", Role.VIEWER, 1)
+    assert changed.version == 2
+    with pytest.raises(Stale):
+        site.accounts.change("otto", Role.INTEGRATOR, 1)
+    with pytest.raises(Stale):
+        site.accounts.remove("otto", 1)
+    site.accounts.remove("otto", 2)
 
 
 @pytest.mark.parametrize(

@@ -4,24 +4,27 @@ import importlib.util
 import inspect
 from collections.abc import Iterator
 from pathlib import Path
+from typing import cast
 
 import pytest
+from fastapi import APIRouter, FastAPI
+from fastapi.routing import APIRoute
 from fastapi.testclient import TestClient
 from sites import PASSWORD, PEOPLE, site_over
-from starlette.routing import Route
 
 from depal.server.api import build_app
 from depal.server.problems import Answer, Forbidden, SignInNeeded
 from depal.server.roles import Principal, Role
 from depal.server.site import Site
 from depal.server.usecases import deliveries, managing, use_cases, wanting, working
+from depal.server.usecases.registry import MARK
 
 ROOT = Path(__file__).parent.parent.parent
 
 MODULES = (working, wanting, deliveries, managing)
 
 TABLE = {
-    None: {"make_first_account", "sign_in"},
+    None: {"make_first_account", "see_health", "sign_in"},
     "all": {
         "assign_product": "i", "add_token": "i", "add_person": "i", "change_person": "i",
         "change_settings": "i", "list_people": "i", "list_tokens": "i", "put_picture": "i",
@@ -119,20 +122,36 @@ def filled(path: str) -> str:
         name = out[start + 1 : end]
         value = {"number": "1", "face": "front"}.get(name, "something")
         out = out[:start] + value + out[end + 1 :]
-    return out
+    return f"{out}?wait=0" if out.endswith("/events") else out
 
 
-def test_every_route_has_a_use_case_with_roles(client: TestClient) -> None:
-    """But for the one that says that the server is there."""
-    app = client.app
-    names = {case.name for case in use_cases().values()}
-    shown = {(method, path) for method, path in operations(client)}
-    assert len(OPEN & shown) == 3
-    served = set()
-    for module in MODULES:
-        served |= {name for name in vars(module) if name in names}
-    assert served == names
-    assert app is not None
+def test_every_route_serves_a_use_case_and_three_are_for_everybody(client: TestClient) -> None:
+    """By the mark that the gate reads; `open_record` serves the screen alone."""
+    marks = {
+        (method, route.path): getattr(route.endpoint, MARK, None)
+        for route in _routes(client)
+        for method in route.methods or ()
+    }
+    assert [key for key, case in marks.items() if case is None] == []
+    everybody = {key for key, case in marks.items() if case is not None and case.roles is None}
+    assert everybody == OPEN
+    served = {case.name for case in marks.values() if case is not None}
+    assert set(use_cases()) - served == {"open_record", "last_event"}
+
+
+def test_a_route_without_a_use_case_is_for_nobody(site: Site) -> None:
+    """Whoever forgets to say who may use it has opened nothing."""
+    app = build_app(site)
+    router = next(r for r in _routers(app) if r.routes)
+
+    @router.get("/forgotten")
+    def forgotten() -> str:
+        return "everything"
+
+    with TestClient(app) as client:
+        assert client.get("/api/v1/forgotten").status_code == 401
+        cookie = {"cookie": f"depal={site.sessions.open('ines')}"}
+        assert client.get("/api/v1/forgotten", headers=cookie).status_code == 403
 
 
 @pytest.mark.parametrize(
@@ -191,7 +210,7 @@ def test_every_route_and_role_as_the_table_says(site: Site, client: TestClient) 
         for route in _routes(client)
         for method in route.methods or ()
     }
-    alias = {"stop": "stop_after_box"}
+    alias = {"stop": "stop_after_box", "stream_events": "read_events"}
     for method, path in operations(client):
         if (method, path) in OPEN:
             continue
@@ -220,15 +239,14 @@ def test_every_route_and_role_as_the_table_says(site: Site, client: TestClient) 
                 )
 
 
-def _routes(client: TestClient) -> list[Route]:
-    from fastapi.routing import APIRoute, APIRouter  # noqa: PLC0415
+def _routers(app: FastAPI) -> list[APIRouter]:
+    inner = [getattr(route, "original_router", None) for route in app.router.routes]
+    return [each for each in inner if isinstance(each, APIRouter)]
 
-    found: list[Route] = []
-    for route in client.app.router.routes:  # type: ignore[union-attr,attr-defined]
-        inner = getattr(route, "original_router", None)
-        if isinstance(inner, APIRouter):
-            found += [each for each in inner.routes if isinstance(each, APIRoute)]
-    return found
+
+def _routes(client: TestClient) -> list[APIRoute]:
+    routers = _routers(cast("FastAPI", client.app))
+    return [each for router in routers for each in router.routes if isinstance(each, APIRoute)]
 
 
 @pytest.mark.parametrize(

@@ -24,7 +24,7 @@ from depal.simulation.cases import cases_of
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.scenes.scene import parked
-from depal.simulation.world import Snapshot
+from depal.simulation.snapshot import Snapshot
 
 Pictures = Mapping[str, tuple[Frame, ...]]
 """The frames of each camera, by its name."""

@@ -9,6 +9,7 @@ from depal.cell.identity import plausible
 from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
+from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
 from depal.cell.standing import left_by, standing_pile
 from depal.cell.workplace import Policy, Workplace
@@ -137,10 +138,17 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
     return FRESH if work.pile.is_fresh(box.id) else None
 
 
-def may_pass(work: Workplace, box: Perceived) -> bool:
-    """Whether another look may show that a box can be taken after all, or that it is none."""
+def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
+    """Whether another look may show that a box can be taken after all, or that it is none.
+
+    Args:
+        work: what is believed.
+        box: that was refused.
+        reason: why; what no box explains may be explained by the next look.
+    """
     vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
-    return box.id not in work.left_behind and (vague or box.id in work.pile.hidden)
+    unclear = vague or box.id in work.pile.hidden or STRANGE in reason
+    return box.id not in work.left_behind and unclear
 
 
 UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"

@@ -51,8 +51,9 @@ class Wishes:
         return found
 
     def add(self, request: Request, key: str = "") -> None:
-        """One more request."""
-        self._wishes.append(Wish(request, key=key))
+        """One more request; one of that key that is known already stays as it is."""
+        if not key or all(wish.key != key for wish in self._wishes):
+            self._wishes.append(Wish(request, key=key))
 
     def change(self, key: str, request: Request) -> bool:
         """The same request with another priority or due time; False where it has ended."""

@@ -124,18 +124,27 @@ class _PacedSelector(selectors.DefaultSelector):
 
 
 class PacedLoop(asyncio.SelectorEventLoop):
-    """An event loop whose time runs faster or slower than the machine's, and goes on elsewhere."""
+    """An event loop whose time runs faster or slower than the machine's, and goes on elsewhere.
+
+    Attributes:
+        pace: that it follows.
+        lag: how far its time is behind its pace [s]: what could not be computed in time. Setting
+            it never turns time back; time stands still instead.
+    """
 
     def __init__(self, pace: Pace) -> None:
         """At this pace."""
-        self._pace = pace
+        self.pace = pace
+        self._last = pace.start
+        self.lag = 0.0
         selector = _PacedSelector()
         selector.rate = pace.rate
         super().__init__(selector)
 
     def time(self) -> float:
         """The time [s]."""
-        return self._pace.now()
+        self._last = max(self._last, self.pace.now() - self.lag)
+        return self._last
 
 
 def run_paced(work: Coroutine[Any, Any, T], pace: Pace) -> T:

@@ -12,7 +12,7 @@ from depal.domain import Product
 from depal.geometry import Pose, Vector3
 from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
-from depal.perception.detecting import Expected, Finder, Found, Printed
+from depal.perception.detecting import Expected, Finder, Found, Printed, Refuted
 from depal.perception.faces import Face, Look, Raster, Rectangle
 from depal.perception.locating import located
 from depal.perception.rasters import Region, rasters_of
@@ -41,12 +41,14 @@ class Known:
         sizes: of boxes that may be there, without a name: length, width, height [m].
         gallery: the prints that may come; None where there are no pictures.
         standing: whether boxes stand upright.
+        refuted: what is no box: something else explains what is seen there.
     """
 
     products: tuple[Product, ...] = ()
     sizes: tuple[Vector3, ...] = ()
     gallery: Gallery | None = None
     standing: bool = True
+    refuted: Refuted = field(default_factory=Refuted)
 
     @property
     def expected(self) -> Expected:
@@ -112,7 +114,8 @@ class Observer:
     ) -> tuple[Face, ...]:
         prints = None if known.gallery is None else printed_on(raster, known.gallery)
         fixed = [rectangle_of(raster, face) for face in kept]
-        found = self.finder.faces(raster, known.expected, prints, fixed)
+        refuted = known.refuted.on(raster)
+        found = self.finder.faces(raster, known.expected, prints, fixed, refuted)
         sizes = known.expected.faces(raster.facing)
         placed = [located(_laid(raster, each), frames, sizes, known.gallery) for each in found]
         return distinct(placed, kept)

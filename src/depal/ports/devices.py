@@ -33,6 +33,11 @@ class Watch:
     least: tuple[tuple[str, float], ...] = ()
     load: float | None = None
 
+    @property
+    def idle(self) -> bool:
+        """Whether it looks at nothing."""
+        return not self.least and self.load is None
+
     def reason(self, vacuum: Mapping[str, float], load: Callable[[], float]) -> str | None:
         """A reason to stop, or None.
 

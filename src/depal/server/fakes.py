@@ -62,13 +62,13 @@ class FakeCell:
         self.tell(replace(self.told, mode=mode))
 
     def add_request(self, key: str, request: Request) -> None:
-        """One more."""
+        """One more, once."""
+        self.cancel_request(key)
         line = RequestState(key, request.gtin, request.box, request.priority, 0.0, request.due)
         self.tell(replace(self.told, requests=(*self.told.requests, line)))
 
     def change_request(self, key: str, request: Request) -> None:
         """Another priority."""
-        self.cancel_request(key)
         self.add_request(key, request)
 
     def cancel_request(self, key: str) -> None:
@@ -78,10 +78,9 @@ class FakeCell:
 
     def answer(self, question: str, choice: str, source: str) -> None:
         """The first answer counts."""
-        del source
         if question in self.answers:
-            raise Refusal(f"{self.answers[question]} was answered already")
-        self.answers[question] = choice
+            raise Refusal(self.answers[question])
+        self.answers[question] = f"{source} has answered this question: {choice}"
         self.tell(self.told)
 
     def set(self, settings: Settings) -> None:

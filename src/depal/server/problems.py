@@ -5,6 +5,7 @@ DepalError
 ├── SignInNeeded    401
 ├── Forbidden       403
 ├── NotFound        404
+├── NotAcceptable   406
 ├── Conflict        409
 ├── Stale           412
 ├── TooLarge        413
@@ -57,6 +58,12 @@ class NotFound(Answer):
     """There is no such thing."""
 
     status, title = 404, "Not found"
+
+
+class NotAcceptable(Answer):
+    """It exists, but not as one of the kinds that were asked for."""
+
+    status, title = 406, "Not in these kinds"
 
 
 class Conflict(Answer):

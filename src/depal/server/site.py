@@ -14,6 +14,7 @@ from depal.server.people import Accounts, AuditLog, Codes, Limits, Sessions, Tok
 from depal.server.records import (
     KeptSettings,
     Pictures,
+    Products,
     Questions,
     Queue,
     Repeats,
@@ -45,6 +46,7 @@ class Site:
         pictures: of products.
         repeats: of requests with a key.
         settings: of the cell.
+        products: and who may change them when.
     """
 
     cell: Cell
@@ -65,6 +67,7 @@ class Site:
     pictures: Pictures
     repeats: Repeats
     settings: KeptSettings
+    products: Products
 
     @classmethod
     def over(
@@ -105,4 +108,5 @@ class Site:
             Pictures(database, chance),
             Repeats(database, chance),
             KeptSettings(database),
+            Products(database),
         )

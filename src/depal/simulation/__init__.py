@@ -7,10 +7,11 @@ from depal.simulation.imaging.severity import Severity
 from depal.simulation.losses import Cause, Loss
 from depal.simulation.people import SimulatedPerson
 from depal.simulation.referee import Referee, Summary, Truth
+from depal.simulation.snapshot import Snapshot
 from depal.simulation.stacking import stacked
 from depal.simulation.truth_sight import SightSettings, TruthSight
 from depal.simulation.witness import Witness, name_of
-from depal.simulation.world import Snapshot, World
+from depal.simulation.world import World
 
 __all__ = [
     "Case",

@@ -63,7 +63,7 @@ class SimulatedCell:
         return self.person.witness
 
 
-def build(
+def build(  # noqa: PLR0913 - each is a choice of its own
     layout: CellLayout,
     delivery: Delivery,
     seed: int = 0,
@@ -73,6 +73,7 @@ def build(
     sight: SightSettings | None = None,
     severity: Severity = Severity.NORMAL,
     policy: Policy | None = None,
+    kind: type[World] = World,
 ) -> SimulatedCell:
     """Builds a cell with a delivery on its pallet.
 
@@ -85,6 +86,7 @@ def build(
         sight: how good the perception from the truth is.
         severity: how far cameras and prints are from ideal.
         policy: how the worker answers; None for what is so.
+        kind: of the world.
 
     Returns:
         The cell with its stack settled and the arm parked.
@@ -94,7 +96,7 @@ def build(
     """
     stack = delivery.stack if delivery.stack is not None else stacked(delivery)
     time = clock or LoopClock()
-    world = World(layout, cases_of(delivery, stack, layout), seed, start)
+    world = kind(layout, cases_of(delivery, stack, layout), seed, start)
     safety, stage = SimulatedSafety(), Stage(world)
     return SimulatedCell(
         world,

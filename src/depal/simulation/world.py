@@ -1,7 +1,5 @@
 """The simulated world: one MuJoCo model and its state, advanced as far as somebody asks."""
 
-from dataclasses import dataclass
-
 import mujoco
 import numpy as np
 import numpy.typing as npt
@@ -9,6 +7,7 @@ import numpy.typing as npt
 from depal.domain import CellLayout, Joints
 from depal.errors import DeviceError
 from depal.geometry import Pose
+from depal.ports import Watch
 from depal.ports.trajectory import Trajectory
 from depal.simulation.cases import Case
 from depal.simulation.contacts import ContactWatch
@@ -17,6 +16,7 @@ from depal.simulation.losses import LossWatch
 from depal.simulation.model import STEP, build_model
 from depal.simulation.parts import ARM_DAMPING, ARM_INERTIA, ARM_STIFFNESS, BODY, SOLID
 from depal.simulation.servo import Motion, motion_along, stopped
+from depal.simulation.snapshot import Snapshot
 from depal.simulation.suction import TOUCH, SuctionState
 
 Floats = npt.NDArray[np.float64]
@@ -30,35 +30,15 @@ QUIET = 50
 SETTLING = 3000
 """The stack gets this many steps to come to rest at the most."""
 
+CONTROL = 4
+"""The arm's own controller looks at its sensors every so many steps."""
+
 G = 9.81
 LOAD_FILTER = 0.005
 """Time constant of the load cell [s]."""
 
 _STIFFNESS, _DAMPING = np.array(ARM_STIFFNESS), np.array(ARM_DAMPING)
 _INERTIA = np.array(ARM_INERTIA)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Snapshot:
-    """Where everything is, for pictures.
-
-    Attributes:
-        at: when [s].
-        arm: (8, 7) base, links 1 to 6 and the tool: position [m] and quaternion (w, x, y, z).
-        boxes: (n, 7) the same of the boxes.
-        folded: whether the lower module is up.
-        held: boxes in the hand.
-        removed: boxes that people took away.
-        bays: the trolley that stands in each bay.
-    """
-
-    at: float
-    arm: Floats
-    boxes: Floats
-    folded: bool
-    held: tuple[int, ...]
-    removed: tuple[int, ...]
-    bays: dict[str, str | None]
 
 
 class World:
@@ -74,6 +54,7 @@ class World:
         removed: boxes that people took out of the cell.
         bays: the name of the trolley that stands in each bay, None where none does.
         steps: how many steps were computed; those in which all stood still were not.
+        seen: the reason why the watch of the present motion has stopped it.
     """
 
     def __init__(
@@ -103,12 +84,14 @@ class World:
         self.removed: list[int] = []
         self.bays: dict[str, str | None] = {storage.id: storage.id for storage in layout.storages}
         self.steps = 0
+        self.seen: str | None = None
         self.start = start
         self._tick = 0
         self._quiet = 0
         self._load = 0.0
         self._noise = np.random.default_rng([seed, 1])
         self._motion = motion_along(_standing(joints or layout.robot.parked), 0, STEP)
+        self._watch, self._stopping = Watch(), False
         self._show_fold()
         self._settle()
 
@@ -137,15 +120,24 @@ class World:
         """Something was done to the world: it does not stand still any more."""
         self._quiet = 0
 
-    def begin(self, trajectory: Trajectory) -> Motion:
-        """The servos follow a trajectory from now on."""
+    def begin(self, trajectory: Trajectory, watch: Watch | None = None) -> Motion:
+        """The servos follow a trajectory from now on.
+
+        Args:
+            trajectory: the motion.
+            watch: what it sees stops the motion in that control period, however late whoever
+                commands it is told.
+        """
         self.wake()
         self._motion = motion_along(trajectory, self._tick, STEP)
+        self._watch, self.seen, self._stopping = watch or Watch(), None, False
         return self._motion
 
     def stop(self) -> Motion:
-        """The arm comes to rest along its path."""
-        self._motion = stopped(self._motion, self._tick, STEP, self.layout.robot.limits)
+        """The arm comes to rest along its path; told twice, it does so once."""
+        if not self._stopping:
+            self._motion = stopped(self._motion, self._tick, STEP, self.layout.robot.limits)
+            self._stopping = True
         return self._motion
 
     def ending(self, motion: Motion) -> float:
@@ -245,6 +237,16 @@ class World:
         free = moving and not self._motion.may_touch(self._tick)
         self.contacts.after_step(self._tick, self.now, self.suction.held_boxes, free=free)
         self._quiet = 0 if moving or self._stirs() else self._quiet + 1
+        if moving and (self._tick - self._motion.first) % CONTROL == 0:
+            self._look_out()
+
+    def _look_out(self) -> None:
+        """What the arm's own controller does in a control period."""
+        if self._watch.idle or self.seen is not None:
+            return
+        self.seen = self._watch.reason(self.suction.vacuum(self.now), self.load)
+        if self.seen is not None:
+            self.stop()
 
     def _height(self, box: int) -> float:
         return float(self.data.xpos[self.model.box_bodies[box], 2])

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import uvicorn
+from argon2 import PasswordHasher
 from scripted_cell import ScriptedCell
 
 from depal.app.serve.feed import Feed
@@ -19,12 +20,12 @@ from depal.server.screen import attach
 from depal.server.site import Site
 
 
-def site_in(folder: Path, step: float) -> Site:
+def site_in(folder: Path, step: float, hasher: PasswordHasher | None = None) -> Site:
     """A site over a scripted cell, with nobody in it."""
     database, chance = Database(f"sqlite:///{folder / 'store.db'}"), SystemChance()
     cell = ScriptedCell(step)
     cell.records = Recorder(database, chance)
-    return Site.over(database, cell, Feed(folder / "runs"), chance, folder / "runs")
+    return Site.over(database, cell, Feed(folder / "runs"), chance, folder / "runs", hasher)
 
 
 class Announcing(uvicorn.Server):

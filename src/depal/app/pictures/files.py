@@ -8,7 +8,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from depal.app.pictures.painter import CellPainter
-from depal.simulation.world import Snapshot
+from depal.simulation.snapshot import Snapshot
 
 Bytes = npt.NDArray[np.uint8]
 

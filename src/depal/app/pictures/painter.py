@@ -16,7 +16,7 @@ from depal.simulation.imaging.mesh import Mesh
 from depal.simulation.imaging.raster import Picture, render
 from depal.simulation.imaging.scene import CellScene
 from depal.simulation.imaging.shadows import add_shadows
-from depal.simulation.world import Snapshot
+from depal.simulation.snapshot import Snapshot
 
 Bytes = npt.NDArray[np.uint8]
 

@@ -83,7 +83,7 @@ def assemble(wiring: Wiring, ports: Ports) -> Assembly:
     halting.bind(work, desk)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
-        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny)
+        work.feedback = Feedback(sight.learn, sight.doubt, sight.deny, sight.part)
     notes = Journalist()
     controller = Controller(work, desk, notes, wiring.tasks, wiring.journal, wiring.engine)
     return Assembly(work, desk, notes, controller, times)

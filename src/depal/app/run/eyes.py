@@ -8,6 +8,7 @@ from depal.domain import CameraMount, CellLayout, DeliveryLine, Product
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox
 from depal.perception.calibration import Calibration, calibrate
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
 from depal.perception.frames.checks import problems_of
 from depal.perception.memory import Memory
@@ -48,10 +49,12 @@ class Observing:
         expected: tuple[DeliveryLine, ...] | None,
         book: PictureBook,
         before: Look | None,
+        refuted: Refuted,
     ) -> Look:
         """The boxes that these frames show; what looks as before is taken over from there."""
         lines = tuple(expected or ())
-        known = Known(tuple(line.product for line in lines), gallery=self._prints(book, lines))
+        products = tuple(line.product for line in lines)
+        known = Known(products, gallery=self._prints(book, lines), refuted=refuted)
         last = self._last if before is not None else None
         self._last = self._observer.look(self._true(frames), known, last)
         return self._last.look

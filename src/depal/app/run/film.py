@@ -6,7 +6,7 @@ from pathlib import Path
 
 from depal.app.pictures import CellPainter, save_animation, save_picture
 from depal.simulation.cell import SimulatedCell
-from depal.simulation.world import Snapshot
+from depal.simulation.snapshot import Snapshot
 
 PERIOD = 1.0
 """Simulated time between two moments [s]."""

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from depal.domain import CellLayout
 from depal.executive.clock import Clock
-from depal.server.cell import Settings
+from depal.server.cell import Order, Settings
 from depal.server.cellstate import Alarm, CellState, Mode, TrolleyState
 
 
@@ -43,4 +43,23 @@ def empty_statement(
             )
             for storage in layout.storages
         ),
+    )
+
+
+def begun_statement(empty: CellState, order: Order) -> CellState:
+    """A delivery that is being started: nothing of it was seen yet."""
+    return replace(
+        CellState(),
+        version=empty.version,
+        at=empty.at,
+        mode=Mode.EXECUTE,
+        reason="The cell looks at the pallet for the first time.",
+        delivery=order.delivery.id,
+        run=order.run,
+        boxes=sum(line.count for line in order.delivery.lines),
+        w=empty.w,
+        speed=empty.speed,
+        policy=empty.policy,
+        joints=empty.joints,
+        trolleys=empty.trolleys,
     )

@@ -7,8 +7,7 @@ from depal.logistics.store import Database, LocalStore
 from depal.ports import Movement
 from depal.server.cellstate import QuestionState
 from depal.server.chance import Chance
-from depal.server.records import Questions, Queue, Requests, Runs
-from depal.server.records.queue import CANCELLED, DONE
+from depal.server.records import Questions, Requests, Runs
 
 
 class Recorder(Records):
@@ -18,7 +17,7 @@ class Recorder(Records):
         """Writes with a connection of its own."""
         self._questions = Questions(database)
         self._requests = Requests(database, chance)
-        self._runs, self._queue = Runs(database, chance), Queue(database, chance)
+        self._runs = Runs(database, chance)
 
     def asked(self, run: int, question: QuestionState) -> None:
         """A question was asked."""
@@ -34,9 +33,7 @@ class Recorder(Records):
 
     def run_ended(self, run: int, state: str, at: float, result: dict[str, object]) -> None:
         """A run is over, and its delivery with it."""
-        del at
-        self._runs.end(run, state, result)
-        self._queue.mark(self._runs.get(run).delivery, DONE if state == DONE else CANCELLED)
+        self._runs.end(run, state, result, at)
 
     def dropped(self, run: int) -> None:
         """What a controller has asked that is gone: the next one asks anew."""

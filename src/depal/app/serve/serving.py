@@ -15,7 +15,8 @@ import uvicorn
 from depal.app.run.inputs import cell_of, one_of
 from depal.app.run.values import CAMERA, PERCEPTIONS
 from depal.app.serve.feed import Feed
-from depal.app.serve.host import Host, Means
+from depal.app.serve.host import Host
+from depal.app.serve.means import Means
 from depal.app.serve.outside import World
 from depal.app.serve.recording import Recorder, RunStore
 from depal.drivers.remote import connect, start_world
@@ -27,7 +28,7 @@ from depal.ports import StoreSystem
 from depal.server.api import Exposure, build_app
 from depal.server.cell import Order
 from depal.server.chance import SystemChance
-from depal.server.records import KeptSettings, Queue, Runs
+from depal.server.records import KeptSettings, Queue, Requests, Runs
 from depal.server.screen import attach
 from depal.server.site import Site
 
@@ -137,7 +138,11 @@ class Service:
             return None
         _, delivery = Queue(self._database, self._chance).get(run.delivery)
         Recorder(self._database, self._chance).dropped(run.number)
-        return Order(run.number, delivery)
+        card = card_of(self._serving.folder)
+        now = 0.0 if card is None else card.pace.now()
+        return Order(
+            run.number, delivery, Requests(self._database, self._chance).waiting(run.number, now)
+        )
 
     def _store(self, run: int) -> StoreSystem:
         return RunStore(LocalStore(self._database), run)

@@ -12,6 +12,7 @@ from depal.app.run.inputs import refuse_what_cannot_work
 from depal.app.run.record import CHOICES, said
 from depal.app.serve.outside import Records, World
 from depal.app.serve.person import ScreenPerson
+from depal.app.serve.result import result_of
 from depal.app.serve.seeing import Seen
 from depal.cell.departures import Departure, Fate
 from depal.cell.ledger import Found, Ledger, page_of, restore
@@ -19,8 +20,6 @@ from depal.cell.planning.timing import Timing
 from depal.cell.recovery import Recovery
 from depal.cell.reporting import ChoiceNote
 from depal.cell.tasks import read_shipped_tasks
-from depal.cell.timekeeping import WAITING
-from depal.cell.wishes import Wish
 from depal.cell.workplace import Policy, Ports, Settings
 from depal.domain import BoxId, CellLayout, Gtin, Request
 from depal.executive import events as ev
@@ -181,7 +180,7 @@ class Session:
         self.stage = Stage.DONE
         self._settle_requests(over=True)
         self._around.records.run_ended(
-            self.order.run, "done", self._around.clock.now(), self.result()
+            self.order.run, "done", self._around.clock.now(), result_of(self.wired, self.began)
         )
 
     async def resume(self, source: str) -> None:
@@ -332,55 +331,6 @@ class Session:
                 0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
             )
         return tuple(sorted(found, key=lambda alarm: not alarm.urgent))
-
-    def result(self) -> dict[str, object]:
-        """What came of the run, for whoever looks at it later."""
-        work = self.wired.work
-        fates = [departure.fate for departure in work.departures.sequence]
-        waiting = self.wired.times.shares(work.now)[WAITING]
-        return {
-            "delivery": work.delivery.id,
-            "boxes": sum(line.count for line in work.delivery.lines),
-            "stored": fates.count(Fate.STORED),
-            "lost": fates.count(Fate.LOST),
-            "exceptions": [
-                {"box": d.box, "reason": d.reason, "outcome": d.fate.value, "gtin": d.gtin}
-                for d in work.departures.sequence
-                if d.fate in {Fate.SET_ASIDE, Fate.BY_PERSON}
-            ],
-            "sequence": [
-                {
-                    "box": d.box,
-                    "gtin": d.gtin,
-                    "place": d.place,
-                    "outcome": d.fate.value,
-                    "at": d.at,
-                }
-                for d in work.departures.sequence
-            ],
-            "requests": [_told_of(wish) for wish in work.wishes],
-            "questions": [
-                {"text": asked.question.text, "answer": asked.answer}
-                for asked in work.questions.all
-            ],
-            "seconds": work.now - self.began,
-            "waiting_seconds": waiting,
-        }
-
-
-def _told_of(wish: Wish) -> dict[str, object]:
-    request = wish.request
-    return {
-        "key": wish.key,
-        "gtin": request.gtin,
-        "box": request.box,
-        "priority": request.priority,
-        "arrived": request.arrived,
-        "served": wish.served,
-        "by": wish.box,
-        "boxes_before": wish.boxes_before,
-        "cancelled": wish.cancelled,
-    }
 
 
 def cell_settings(settings: server.Settings) -> Settings:

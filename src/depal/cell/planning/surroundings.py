@@ -13,6 +13,9 @@ from depal.motion.collision import Scene, fixed_solids
 SEAM = 0.01
 """A column below a box is this much smaller than the box, for poses are not exact [m]."""
 
+STRANGE = "something before the camera"
+"""What a look shows and no box explains is called so."""
+
 THIN = 0.05
 """Lower columns are not worth a solid [m]."""
 
@@ -58,11 +61,9 @@ class Surroundings:
             for box, shape in pile.bared.items()
             if (column := self._column(shape)) is not None
         ]
+        cases += [(f"{STRANGE} {k}", solid) for k, solid in enumerate(pile.obstacles)]
         cases += [
-            (f"something before the camera {k}", solid) for k, solid in enumerate(pile.obstacles)
-        ]
-        cases += [
-            (f"what is under something before the camera {k}", column)
+            (f"what is under {STRANGE} {k}", column)
             for k, solid in enumerate(pile.obstacles)
             if (column := self._column(solid)) is not None
         ]

@@ -10,6 +10,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.timing import rebased
 from depal.cell.workplace import Workplace
+from depal.geometry import OrientedBox, Pose
 from depal.motion.moves import CLOSE, Kind, Part
 from depal.motion.moves.picking import into_face
 from depal.motion.planning.straight import straight
@@ -21,6 +22,9 @@ with the stroke of the bellows, behind it and before it, these leave no gap."""
 
 FINE = 0.003
 """Of the paths between them [m]."""
+
+THIN = 0.002
+"""A flat place is so deep [m]."""
 
 SEALED = 1.0
 """With more vacuum than this some cup seals: the distance is right, and something else is not."""
@@ -39,9 +43,35 @@ async def sucked(work: Workplace, desk: Desk, plan: PickPlan) -> bool:
             done = step
         if await gripper.suck(plan.grasp.cups):
             return True
-        if max(gripper.vacuum().values(), default=0.0) > SEALED:
+        if seals(work):
             return False
     return False
+
+
+def seals(work: Workplace) -> bool:
+    """Whether some cup has sealed."""
+    return max(work.ports.gripper.vacuum().values(), default=0.0) > SEALED
+
+
+def under_cups(work: Workplace, desk: Desk, plan: PickPlan) -> OrientedBox:
+    """The flat place that the plan's cups touch where the arm stands, in the cell frame."""
+    tool, folded = work.layout.tool, plan.grasp.folded
+    flange = desk.planner.mover.body.kinematics.flange(work.ports.arm.joints())
+    faces = {
+        module.name: (module, flange @ tool.module(module.name, folded=folded).flange_from_face)
+        for module in tool.modules
+    }
+    first = faces[plan.grasp.cups[0][0]][1]
+    points = []
+    for name, index in plan.grasp.cups:
+        module, face = faces[name]
+        points.append(first.inverse.apply(face.apply((0.0, *module.cups[index]))))
+    low, high = np.min(points, axis=0), np.max(points, axis=0)
+    radius = tool.suction.cup_radius
+    x, y, z = ((low + high) / 2).tolist()
+    _, wide, tall = (high - low + 2 * radius).tolist()
+    middle = Pose(first.apply((x, y, z)), first.rotation)
+    return OrientedBox(middle, (THIN, wide, tall))
 
 
 def lifted_from(desk: Desk, plan: PickPlan) -> Trajectory:

@@ -105,7 +105,7 @@ class Seeing:
         if choice.decision.outcome is Selected.NOTHING_PERCEIVED or not verdicts:
             return Report(unseen, reason=await self._nothing_seen())
         free = [verdict for verdict in verdicts if not verdict.blockers] or list(verdicts)
-        vague = [verdict for verdict in free if may_pass(self._work, verdict.box)]
+        vague = [each for each in free if may_pass(self._work, each.box, each.reason)]
         if vague and self._again < AGAIN:
             self._again += 1  # another look may tell
             self._work.feedback.doubt()

@@ -10,7 +10,7 @@ from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.primitives.feeling import lifted_from, sucked
+from depal.cell.primitives.feeling import lifted_from, seals, sucked, under_cups
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Recognition
@@ -77,6 +77,7 @@ class Taking:
         came = await sucked(self._work, self._desk, plan)
         self._work.modules.tried(box, {name for name, _ in plan.grasp.cups}, ports.gripper.vacuum())
         if not came:
+            self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
         lift = lifted_from(self._desk, plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
@@ -103,6 +104,12 @@ class Taking:
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"
         return None
+
+    def _tell_a_seam(self, plan: PickPlan) -> None:
+        """Where some cups seal and others do not, no one face is under all of them."""
+        named = isinstance(plan.box, Recognition)
+        if self._work.pile.remembered and not named and seals(self._work):
+            self._work.feedback.part(under_cups(self._work, self._desk, plan))
 
     def _wrong_weight(self, plan: PickPlan, mass: float) -> str | None:
         """What hangs on the arm is nothing, too much, or more than one box."""

@@ -11,15 +11,24 @@ from depal.cell.sight.naming import perceived
 from depal.domain import BoxId, DeliveryLine, Product
 from depal.errors import DeviceError
 from depal.geometry import OrientedBox
+from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
 from depal.perception.memory import Memory, tally_of
 from depal.perception.pictures import PictureBook
 from depal.ports import Camera, Clock, Frame, View
 
 Perceive = Callable[
-    [Sequence[Frame], tuple[DeliveryLine, ...] | None, PictureBook, Look | None], Look
+    [
+        Sequence[Frame],
+        tuple[DeliveryLine, ...] | None,
+        PictureBook,
+        Look | None,
+        Refuted,
+    ],
+    Look,
 ]
-"""From the frames of a look to the boxes in it, by what the note says and by the look before."""
+"""From the frames of a look to the boxes in it, by what the note says, by the look before, and by
+what is no box."""
 
 Check = Callable[[Sequence[Frame], float], Sequence[str]]
 """What is wrong with the frames of a look that was taken at this time [s], in words."""
@@ -106,6 +115,7 @@ class CameraSight:
         self._covered: Callable[[], bool] = lambda: False
         self.memory = Memory() if memory is None else memory
         self._seen: deque[tuple[float, tuple[Frame, ...]]] = deque(maxlen=KEPT)
+        self._spans: list[OrientedBox] = []
         self.last: Look | None = None
         self.spent: list[float] = []
         self.compute: Compute = on_the_loop
@@ -135,7 +145,9 @@ class CameraSight:
         before = None if self.last is None or self._doubting else self._believed()
         self._doubting = False
         expected = self._expected()
-        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before)
+        denied = tuple(box.seen.shape for box in self.memory.denied)
+        refuted = Refuted(denied, tuple(self._spans))
+        look = await self.compute(self._eyes.perceive, frames, expected, self.book, before, refuted)
         self._seen.append((taken, tuple(frames)))
         self.last = look
         self.memory = self.memory.update(look, taken)
@@ -146,8 +158,14 @@ class CameraSight:
         self._doubting = True
 
     def deny(self, name: BoxId) -> None:
-        """A person has looked: what goes by this name is no box."""
+        """What goes by this name is no box: the next look finds out what else it may be."""
         self.memory = self.memory.forgetting(name)
+        self._doubting = True
+
+    def part(self, span: OrientedBox) -> None:
+        """No one box reaches over all of a flat place: the next look finds what does."""
+        self._spans.append(span)
+        self._doubting = True
 
     @property
     def frames(self) -> tuple[Frame, ...]:

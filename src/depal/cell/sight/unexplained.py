@@ -93,8 +93,10 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
     views /= np.linalg.norm(views, axis=1, keepdims=True)
     for box in boxes:
         half = np.array(box.size) / 2 + ACROSS
+        reach = float(np.linalg.norm(half)) + ALONG
+        near = np.flatnonzero(free & (np.abs(points - box.centre) <= reach).all(axis=1))
         for way in DEPTHS:
-            left = np.flatnonzero(free)
+            left = near[free[near]]
             inside = np.abs(_carried(points[left] + way * views[left], box.pose.inverse)) < half
             free[left[inside.all(axis=1)]] = False
     mask = np.zeros(depth.shape, dtype=np.uint8)

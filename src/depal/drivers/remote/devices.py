@@ -2,13 +2,16 @@
 
 import asyncio
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 from depal.domain import BoxId, Cup, Joints
 from depal.drivers.remote.line import Line
+from depal.errors import DeviceError
 from depal.ports import Frame, Guard, Question, SafetyState, Trajectory, View, Watch
 from depal.ports.wire import messages as m
+from depal.ports.wire.values import Path, Photo, Sightings
 
 
 @runtime_checkable
@@ -54,9 +57,10 @@ class RemoteArm:
 
         ignore = self.line.listen(look)
         try:
-            return await self.line.call(m.Follow(m.Path.of(trajectory), watch), str | None)  # type: ignore[arg-type]
+            return await self.line.call(m.Follow(Path.of(trajectory), watch), str | None)  # type: ignore[arg-type]
         except asyncio.CancelledError:
-            self.line.say(m.Halt("broken off"))
+            with suppress(DeviceError):  # a world that has gone moves nothing
+                self.line.say(m.Halt("broken off"))
             raise
         finally:
             ignore()
@@ -132,7 +136,7 @@ class RemoteCamera:
 
     async def take(self) -> Frame:
         """Takes one picture."""
-        return (await self.line.call(m.Take(self.number), m.Photo)).frame
+        return (await self.line.call(m.Take(self.number), Photo)).frame
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,7 +147,7 @@ class RemoteSight:
 
     async def look(self) -> View:
         """Looks at the pallet."""
-        return (await self.line.call(m.Look(), m.Sightings)).view
+        return (await self.line.call(m.Look(), Sightings)).view
 
 
 @dataclass(frozen=True, slots=True)
@@ -176,4 +180,5 @@ class RemoteReferee:
         keep(asyncio.get_running_loop().create_task(self._lifted(box)))
 
     async def _lifted(self, box: BoxId) -> None:
-        await self.line.call(m.Lifted(box), type(None))
+        with suppress(DeviceError):  # nobody asks the referee of a world that has gone
+            await self.line.call(m.Lifted(box), type(None))

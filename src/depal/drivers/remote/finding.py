@@ -2,6 +2,7 @@
 
 import json
 import os
+import socket
 import sys
 import time
 from dataclasses import dataclass
@@ -45,14 +46,26 @@ class Card:
 
 
 def card_of(folder: Path) -> Card | None:
-    """The world that runs beside a data folder; None where none does."""
+    """The world that runs beside a data folder; None where none does.
+
+    A card outlives a world that was killed, and another process may have its number by now.
+    """
     try:
         body = json.loads((folder / CARD).read_text(encoding="utf-8"))
         pace = Pace(float(body["pace"]), float(body["start"]), float(body["origin"]))
         card = Card(int(body["pid"]), Path(body["socket"]), pace)
     except (OSError, ValueError, KeyError, TypeError):
         return None
-    return card if card.lives else None
+    return card if card.lives and _listens(card.socket) else None
+
+
+def _listens(path: Path) -> bool:
+    with socket.socket(socket.AF_UNIX) as line:
+        try:
+            line.connect(str(path))
+        except OSError:
+            return False
+    return True
 
 
 def start_world(folder: Path, rate: float = 1.0, start: float = 0.0) -> Card:
@@ -64,10 +77,12 @@ def start_world(folder: Path, rate: float = 1.0, start: float = 0.0) -> Card:
         start: its time at the beginning [s].
 
     Raises:
-        DeviceError: it did not start.
+        DeviceError: it did not start, or one runs there already.
     """
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / CARD).unlink(missing_ok=True)
+    other = card_of(folder)
+    if other is not None:
+        raise DeviceError(f"a world runs beside {folder} already, process {other.pid}")
     command = [sys.executable, "-m", "depal.simulation.process", str(folder), str(rate), str(start)]
     with (folder / LOG).open("ab") as log:
         quiet = (os.POSIX_SPAWN_OPEN, 0, os.devnull, os.O_RDONLY, 0)

@@ -4,14 +4,16 @@ import asyncio
 import itertools
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
 
 import msgspec
 
 from depal.errors import DeviceError
+from depal.executive.clock import PacedLoop
 from depal.ports.wire import messages as m
-from depal.ports.wire.codec import encoded, received
+from depal.ports.wire.codec import decoded, encoded, received
 
 T = TypeVar("T")
 
@@ -33,6 +35,7 @@ class Line:
         self._state: m.State | None = None
         self._tasks: list[asyncio.Task[None]] = []
         self._closed: str | None = None
+        self._trouble: str | None = None
 
     @classmethod
     async def open(cls, socket: Path) -> tuple["Line", m.Welcome]:
@@ -48,6 +51,7 @@ class Line:
         line._tasks.append(asyncio.create_task(line._listen()))
         try:
             welcome = await line.call(m.Hello(m.VERSION, os.getpid()), m.Welcome)
+            keep_step(welcome.lag)
         except BaseException:
             await line.close()
             raise
@@ -62,10 +66,12 @@ class Line:
         """The newest state of the sensors.
 
         Raises:
-            DeviceError: there is none: nothing is built, or the world has gone.
+            DeviceError: there is none: nothing is built, nothing can be read, or the world has
+                gone.
         """
-        if self._closed is not None:
-            raise DeviceError(self._closed)
+        trouble = self._closed or self._trouble
+        if trouble is not None:
+            raise DeviceError(trouble)
         if self._state is None:
             raise DeviceError("nothing is built in this world")
         return self._state
@@ -93,7 +99,7 @@ class Line:
             value = await future
         finally:
             self._waiting.pop(number, None)
-        return msgspec.msgpack.decode(value, type=kind)
+        return decoded(value, msgspec.msgpack.Decoder(kind))
 
     def say(self, call: m.Call) -> None:
         """Tells the world something that it does not reply to.
@@ -119,11 +125,14 @@ class Line:
         except DeviceError as error:
             reason = str(error)
         finally:
-            self._end(reason)
+            self._end(self._trouble or reason)
 
     def _take(self, reply: m.Reply) -> None:
+        if reply.number == 0:
+            self._trouble = reply.error
         if reply.state is not None:
             self._state = reply.state
+            keep_step(reply.state.lag)
             for heard in tuple(self._heard):
                 heard(reply.state)
         future = self._waiting.get(reply.number)
@@ -145,6 +154,10 @@ class Line:
             if not future.done():
                 future.set_exception(DeviceError(reason))
 
+    async def ends(self, seconds: float) -> None:
+        """Waits until the world has hung up, but not for longer [s]."""
+        await asyncio.wait(self._tasks[:1], timeout=seconds)
+
     async def close(self) -> None:
         """Hangs up."""
         self._end("the line to the world is closed")
@@ -152,3 +165,12 @@ class Line:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)
         self._writer.close()
+        with suppress(ConnectionError):
+            await self._writer.wait_closed()
+
+
+def keep_step(lag: float) -> None:
+    """The running loop is as late as the world's."""
+    loop = asyncio.get_running_loop()
+    if isinstance(loop, PacedLoop):
+        loop.lag = lag

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Sequence
+from contextlib import suppress
 
 from depal.domain import BoxId, CellLayout, Delivery
 from depal.drivers.remote.devices import (
@@ -16,9 +17,13 @@ from depal.drivers.remote.devices import (
     RemoteSight,
 )
 from depal.drivers.remote.line import Line
+from depal.errors import DeviceError
 from depal.executive.clock import Pace
 from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Safety, Sight
 from depal.ports.wire import messages as m
+
+ENDING = 10.0
+"""A world that has not ended by then does something long; it will end after it [s of wall time]."""
 
 
 class RemoteWorld:
@@ -81,9 +86,10 @@ class RemoteWorld:
         task.add_done_callback(self._tasks.discard)
 
     async def shutdown(self) -> None:
-        """Ends the world."""
-        self._line.say(m.Shutdown())
-        await asyncio.sleep(0.05 * self.pace.rate)
+        """Ends the world, and waits until it has ended."""
+        with suppress(DeviceError):  # it has ended already
+            self._line.say(m.Shutdown())
+        await self._line.ends(ENDING * self.pace.rate)
         await self._line.close()
 
     async def close(self) -> None:

@@ -1,8 +1,8 @@
 """The store's database: opened, brought to this depal's tables, closed."""
 
-import shutil
+import sqlite3
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
@@ -162,9 +162,13 @@ class Database:
     def _keep_copy(self, version: str) -> None:
         name = self._engine.url.database
         if self._engine.dialect.name == "sqlite" and name and Path(name).is_file():
-            copy = Path(f"{name}.before-{version}")
-            if not copy.exists():
-                shutil.copyfile(name, copy)
+            copy, part = Path(f"{name}.before-{version}"), Path(f"{name}.part")
+            if copy.exists():
+                return
+            # Page by page through SQLite: what is still in a write-ahead log is copied as well.
+            with closing(sqlite3.connect(name)) as old, closing(sqlite3.connect(part)) as new:
+                old.backup(new)
+            part.replace(copy)
 
 
 def newest() -> str:

@@ -2,5 +2,6 @@
 
 from depal.perception.detecting.expected import Expected
 from depal.perception.detecting.finding import Finder, Found, Printed
+from depal.perception.detecting.refuting import Refuted, RefutedFaces
 
-__all__ = ["Expected", "Finder", "Found", "Printed"]
+__all__ = ["Expected", "Finder", "Found", "Printed", "Refuted", "RefutedFaces"]

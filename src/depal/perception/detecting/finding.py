@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from depal.perception.detecting.expected import Expected
 from depal.perception.detecting.kernels import agreeing
+from depal.perception.detecting.refuting import RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
@@ -93,6 +94,7 @@ class Finder:
         expected: Expected,
         prints: Sequence[Printed] | None,
         fixed: Sequence[Rectangle] = (),
+        refuted: RefutedFaces | None = None,
     ) -> tuple[Found, ...]:
         """The faces in a raster, none overlapping another.
 
@@ -101,6 +103,7 @@ class Finder:
             expected: what the boxes may measure.
             prints: where prints were seen; None where none was looked for.
             fixed: faces that are known already; none that is found overlaps them.
+            refuted: what is no face.
         """
         seams = seams_along(raster, directions_of(raster, DIRECTIONS[raster.facing]))
         sizes = expected.faces(raster.facing)
@@ -112,6 +115,8 @@ class Finder:
         features = described(candidates.measured, candidates.sizes, sizes, shares)
         odds = self.score_of(raster.facing).log_odds(features)
         odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
+        if refuted is not None:
+            odds[refuted.among(candidates)] = -np.inf
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
         values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 import msgspec
 import numpy as np
 
-from depal.errors import DeviceError
+from depal.errors import DepalError, DeviceError
 
 LARGEST = 64 * 2**20
 """A longer message is refused [byte]."""
@@ -76,8 +76,19 @@ async def received(reader: asyncio.StreamReader, decoder: "msgspec.msgpack.Decod
         (length,) = HEAD.unpack(await reader.readexactly(HEAD.size))
         if length > LARGEST:
             raise DeviceError(f"a message of {length} bytes; expected at most {LARGEST}")
-        return decoder.decode(await reader.readexactly(length))
-    except msgspec.MsgspecError as error:
-        raise DeviceError(f"what came is no message: {error}") from error
+        body = await reader.readexactly(length)
     except (asyncio.IncompleteReadError, ConnectionError) as error:
         raise EOFError("the other side has gone") from error
+    return decoded(body, decoder)
+
+
+def decoded(body: bytes, decoder: "msgspec.msgpack.Decoder[M]") -> M:
+    """The message that these bytes are.
+
+    Raises:
+        DeviceError: they are none: other types, text that is none, values that nothing can have.
+    """
+    try:
+        return decoder.decode(body)
+    except (msgspec.MsgspecError, DepalError, ValueError, RecursionError) as error:
+        raise DeviceError(f"what came is no message: {error}") from error

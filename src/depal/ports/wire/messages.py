@@ -2,115 +2,13 @@
 
 import msgspec
 
-from depal.domain import BoxId, CellLayout, Cup, Delivery, Detection, Gtin, Perceived, Recognition
-from depal.geometry import Matrix3, OrientedBox, Pose
-from depal.ports.devices import Frame, Watch
+from depal.domain import BoxId, CellLayout, Cup, Delivery
+from depal.ports.devices import Watch
 from depal.ports.people import Question
-from depal.ports.sight import View
-from depal.ports.trajectory import Trajectory
-from depal.ports.wire.codec import Table, packed, unpacked
+from depal.ports.wire.values import Path
 
 VERSION = 1
 """Of these messages; both sides have the same."""
-
-
-class Path(msgspec.Struct, frozen=True):
-    """A trajectory."""
-
-    times: Table
-    positions: Table
-    velocities: Table
-    allowances: tuple[tuple[float, float], ...]
-
-    @classmethod
-    def of(cls, trajectory: Trajectory) -> "Path":
-        """As it is sent."""
-        return cls(
-            packed(trajectory.times),
-            packed(trajectory.positions),
-            packed(trajectory.velocities),
-            trajectory.allowances,
-        )
-
-    @property
-    def trajectory(self) -> Trajectory:
-        """As it was sent."""
-        return Trajectory(
-            unpacked(self.times),
-            unpacked(self.positions),
-            unpacked(self.velocities),
-            self.allowances,
-        )
-
-
-class Photo(msgspec.Struct, frozen=True):
-    """A frame."""
-
-    taken: float
-    colour: Table
-    depth: Table
-    colour_k: Matrix3
-    depth_k: Matrix3
-    cell_from_camera: Pose
-
-    @classmethod
-    def of(cls, frame: Frame) -> "Photo":
-        """As it is sent."""
-        return cls(
-            frame.taken,
-            packed(frame.colour),
-            packed(frame.depth),
-            frame.colour_k,
-            frame.depth_k,
-            frame.cell_from_camera,
-        )
-
-    @property
-    def frame(self) -> Frame:
-        """As it was sent."""
-        return Frame(
-            self.taken,
-            unpacked(self.colour),
-            unpacked(self.depth),
-            self.colour_k,
-            self.depth_k,
-            self.cell_from_camera,
-        )
-
-
-class Thing(msgspec.Struct, frozen=True):
-    """A perceived box."""
-
-    box: BoxId
-    shape: OrientedBox
-    gtin: Gtin | None
-
-
-class Sightings(msgspec.Struct, frozen=True):
-    """A view of a sight that knows the truth."""
-
-    taken: float
-    things: tuple[Thing, ...]
-
-    @classmethod
-    def of(cls, view: View) -> "Sightings":
-        """As it is sent."""
-        things = (
-            Thing(box.id, box.shape, box.gtin if isinstance(box, Recognition) else None)
-            for box in view.boxes
-        )
-        return cls(view.taken, tuple(things))
-
-    @property
-    def view(self) -> View:
-        """As it was sent."""
-        return View(self.taken, tuple(_perceived(thing) for thing in self.things))
-
-
-def _perceived(thing: Thing) -> Perceived:
-    if thing.gtin is None:
-        return Detection(thing.box, thing.shape)
-    return Recognition(thing.box, thing.shape, thing.gtin)
 
 
 class Built(msgspec.Struct, frozen=True):
@@ -131,6 +29,7 @@ class State(msgspec.Struct, frozen=True):
     trolleys: dict[str, str | None]
     stopped: bool
     gate_open: bool
+    lag: float = 0.0
 
 
 class Truth(msgspec.Struct, frozen=True):
@@ -278,12 +177,14 @@ class Welcome(msgspec.Struct, frozen=True):
         start: the world's time at the origin [s].
         origin: of the machine's monotonic clock [s].
         built: what stands in the world.
+        lag: how far its time is behind the pace [s].
     """
 
     pace: float
     start: float
     origin: float
     built: Built | None
+    lag: float = 0.0
 
 
 class Reply(msgspec.Struct, frozen=True):

@@ -1,6 +1,7 @@
 """Every answer that is no result, as problem+json (RFC 9457)."""
 
 import json
+import math
 from http import HTTPStatus
 from typing import Any
 
@@ -35,32 +36,35 @@ def problem(
     return Response(text, status, headers=headers, media_type=KIND)
 
 
-def answered(answer: Answer) -> Response:
-    """An answer of a use case."""
+def answered(error: DepalError) -> Response:
+    """What a use case says instead of a result."""
+    if isinstance(error, DeviceError):
+        return problem(503, "Not available now", str(error))
+    if not isinstance(error, Answer):
+        return problem(409, "Not possible now", str(error))
     headers = {}
-    if answer.status == HTTPStatus.UNAUTHORIZED:
+    if error.status == HTTPStatus.UNAUTHORIZED:
         headers["WWW-Authenticate"] = "Bearer"
-    if answer.after is not None:
-        headers["Retry-After"] = f"{max(1, round(answer.after))}"
+    if error.after is not None:
+        headers["Retry-After"] = f"{max(1, math.ceil(error.after))}"
     problems = [
         {"where": p.where, "what": p.what, "expected": p.expected, "exists": p.exists}
-        for p in answer.problems
+        for p in error.problems
     ]
-    return problem(answer.status, answer.title, str(answer), problems=problems, headers=headers)
+    return problem(error.status, error.title, str(error), problems=problems, headers=headers)
 
 
 def install(app: FastAPI) -> None:
     """Makes every error of an app a problem document."""
 
-    @app.exception_handler(Answer)
-    async def _answer(_: Request, error: Answer) -> Response:
-        return answered(error)
-
     @app.exception_handler(DepalError)
     async def _depal(_: Request, error: DepalError) -> Response:
-        if isinstance(error, DeviceError):
-            return problem(503, "Not available now", str(error))
-        return problem(409, "Not possible now", str(error))
+        return answered(error)
+
+    @app.exception_handler(Exception)
+    async def _fault(_: Request, error: Exception) -> Response:
+        del error  # the server writes it down; who asks need not know how it is built
+        return problem(500, "A fault of this server", "nothing is known about it; it was logged")
 
     @app.exception_handler(RequestValidationError)
     async def _invalid(_: Request, error: RequestValidationError) -> Response:

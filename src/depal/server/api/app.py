@@ -6,6 +6,7 @@ from depal import __version__
 from depal.server.api.answers import install
 from depal.server.api.exposure import Exposure
 from depal.server.api.gate import Gate
+from depal.server.api.routes.journal import journal
 from depal.server.api.routes.managing import managing
 from depal.server.api.routes.store import store
 from depal.server.api.routes.wanting import wanting
@@ -39,7 +40,7 @@ def build_app(site: Site, exposure: Exposure | None = None) -> FastAPI:
         openapi_url="/openapi.json",
     )
     router = APIRouter(prefix=ROOT)
-    for routes in (working, wanting, store, managing):
+    for routes in (working, journal, wanting, store, managing):
         routes(router, site, reached)
     app.include_router(router)
     install(app)

@@ -7,6 +7,8 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 Share = Annotated[float, Field(ge=0.0, le=1.0)]
 
+PHRASE = "four words are enough"
+
 Text = Annotated[str, Field(min_length=1, max_length=200)]
 
 
@@ -36,16 +38,23 @@ class NewRequest(Body):
 
 
 class ChangedRequest(Body):
-    """Another priority, or another due time."""
+    """Another priority, or another due time; what is not named stays as it is."""
 
-    priority: Share
-    due: datetime | None = None
-    due_in: Annotated[float, Field(ge=0.0, le=2592000.0)] | None = None
+    priority: Share | None = Field(None, examples=[0.9])
+    due: datetime | None = Field(None, description="RFC 3339; null for no due time any more")
+    due_in: Annotated[float, Field(ge=0.0, le=2592000.0)] | None = Field(
+        None, description="seconds from now, instead of due"
+    )
 
     @model_validator(mode="after")
     def _one(self) -> "ChangedRequest":
         _one_due(self.due, self.due_in)
         return self
+
+    @property
+    def keeps_due(self) -> bool:
+        """Whether nothing is said of when it is due."""
+        return self.due_in is None and "due" not in self.model_fields_set
 
 
 def _one_due(due: datetime | None, due_in: float | None) -> None:
@@ -58,48 +67,54 @@ def _one_due(due: datetime | None, due_in: float | None) -> None:
 class Start(Body):
     """What is to be started."""
 
-    delivery: Text | None = Field(None, description="the next in the queue where none is named")
+    delivery: Text | None = Field(
+        None, description="the next in the queue where none is named", examples=["dev-000"]
+    )
 
 
 class Position(Body):
     """Where in the queue."""
 
-    position: Annotated[int, Field(ge=1, le=10000)]
+    position: Annotated[int, Field(ge=1, le=10000, examples=[1])]
 
 
 class NewSettings(Body):
     """The settings of the cell."""
 
-    w: Share
-    speed: Annotated[float, Field(ge=0.05, le=1.0)]
-    policy: Annotated[str, Field(pattern="^(paper|access)$")]
+    w: Annotated[Share, Field(examples=[0.5])]
+    speed: Annotated[float, Field(ge=0.05, le=1.0, examples=[0.8])]
+    policy: Annotated[str, Field(pattern="^(paper|access)$", examples=["paper"])]
 
 
 class NewProduct(Body):
     """What is known of a product."""
 
-    name: Text
-    size: tuple[float, float, float] = Field(description="length, width, height [m]")
-    mass: Annotated[float, Field(gt=0.0, le=100.0)] = Field(description="of a full case [kg]")
+    name: Annotated[Text, Field(examples=["biscuits, 12 packets"])]
+    size: tuple[float, float, float] = Field(
+        description="length, width, height [m]", examples=[[0.365, 0.202, 0.254]]
+    )
+    mass: Annotated[float, Field(gt=0.0, le=100.0)] = Field(
+        description="of a full case [kg]", examples=[5.4]
+    )
 
 
 class Assignment(Body):
     """Where a product belongs, best first."""
 
-    places: Annotated[list[Text], Field(max_length=200)]
+    places: Annotated[list[Text], Field(max_length=200, examples=[["trolley_1/level_1"]])]
 
 
 class Choice(Body):
     """The answer to a question."""
 
-    choice: Text
+    choice: Annotated[Text, Field(description="one of the question's", examples=["taken"])]
 
 
 class SignIn(Body):
     """A name and a password."""
 
-    name: Annotated[str, Field(min_length=1, max_length=40)]
-    password: Annotated[str, Field(min_length=1, max_length=200)]
+    name: Annotated[str, Field(min_length=1, max_length=40, examples=["anna"])]
+    password: Annotated[str, Field(min_length=1, max_length=200, examples=[PHRASE])]
 
 
 class FirstAccount(SignIn):
@@ -111,23 +126,23 @@ class FirstAccount(SignIn):
 class NewPerson(SignIn):
     """A person."""
 
-    role: Annotated[str, Field(pattern="^(viewer|operator|integrator)$")]
+    role: Annotated[str, Field(pattern="^(viewer|operator|integrator)$", examples=["operator"])]
 
 
 class NewRole(Body):
     """A role."""
 
-    role: Annotated[str, Field(pattern="^(viewer|operator|integrator)$")]
+    role: Annotated[str, Field(pattern="^(viewer|operator|integrator)$", examples=["operator"])]
 
 
 class NewPassword(Body):
     """A password."""
 
-    password: Annotated[str, Field(min_length=1, max_length=200)]
+    password: Annotated[str, Field(min_length=1, max_length=200, examples=[PHRASE])]
 
 
 class NewToken(Body):
     """A token for a service."""
 
-    name: Annotated[str, Field(min_length=1, max_length=60)]
+    name: Annotated[str, Field(min_length=1, max_length=60, examples=["the till"])]
     days: Annotated[float, Field(gt=0.0, le=365.0)] = 90.0

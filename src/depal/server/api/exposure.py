@@ -25,5 +25,5 @@ class Exposure:
 
     def allows(self, host: str) -> bool:
         """Whether it may be asked for under a Host header."""
-        name = host.rsplit(":", 1)[0] if not host.endswith("]") else host
+        name = (host.rsplit(":", 1)[0] if not host.endswith("]") else host).lower()
         return name in LOOPBACK or name in self.hosts

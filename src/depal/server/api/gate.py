@@ -4,25 +4,21 @@ from collections.abc import Callable, Sequence
 from urllib.parse import urlsplit
 
 from starlette.concurrency import run_in_threadpool
-from starlette.exceptions import HTTPException
 from starlette.requests import HTTPConnection
 from starlette.responses import Response
 from starlette.routing import BaseRoute, Match
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from depal.errors import DepalError
 from depal.server.api.answers import answered, problem
+from depal.server.api.contents import SAFE, check_contents, limit_of, measured
 from depal.server.api.exposure import Exposure
-from depal.server.problems import Answer, Forbidden, SignInNeeded, TooLarge, WrongType
+from depal.server.problems import Forbidden, SignInNeeded
 from depal.server.roles import Principal
 from depal.server.site import Site
 from depal.server.usecases.registry import MARK, UseCase
 
 PREFIX = "/api/"
-
-SAFE = {"GET", "HEAD", "OPTIONS"}
-
-USUAL, LARGE = 64 * 1024, 5 * 2**20 + 4096
-"""Of a body [byte]: usually, and where files are uploaded."""
 
 BEARER = "bearer "
 
@@ -42,12 +38,6 @@ HEADERS = {
     "cross-origin-opener-policy": "same-origin",
     "cross-origin-resource-policy": "same-origin",
 }
-
-
-def uploads(function: Callable[..., object]) -> Callable[..., object]:
-    """Marks an endpoint that takes files."""
-    function.uploads = True  # type: ignore[attr-defined]
-    return function
 
 
 class Gate:
@@ -72,44 +62,40 @@ class Gate:
             await self._app(scope, receive, send)
             return
         connection = HTTPConnection(scope)
+        is_api = scope["path"].startswith(PREFIX)
+        if scope["type"] == "http":
+            send = self._with_headers(send, API_POLICY if is_api else SCREEN_POLICY)
         refusal = self._foreign(connection, scope)
         if refusal is not None:
             await _refuse(refusal, scope, receive, send)
-            return
-        if scope["type"] == "websocket":
+        elif is_api and scope["type"] == "http":
+            await self._api(connection, scope, receive, send)
+        else:
             await self._app(scope, receive, send)
-            return
-        is_api = scope["path"].startswith(PREFIX)
-        telling = _with_headers(send, API_POLICY if is_api else SCREEN_POLICY)
-        if not is_api:
-            await self._app(scope, receive, telling)
-            return
-        await self._api(connection, scope, receive, telling)
 
     async def _api(
         self, connection: HTTPConnection, scope: Scope, receive: Receive, send: Send
     ) -> None:
-        endpoint, known = self._endpoint(scope)
+        endpoint = self._endpoint(scope)
         try:
             who = await run_in_threadpool(self._who, connection)
-            _check(endpoint, who, known=known)
-            limit = LARGE if getattr(endpoint, "uploads", False) else USUAL
-            _check_body(connection, scope["method"], limit)
-        except Answer as answer:
-            await answered(answer)(scope, receive, send)
+            _check(endpoint, who)
+            check_contents(endpoint, connection.headers, scope["method"])
+        except DepalError as error:
+            await answered(error)(scope, receive, send)
             return
         scope["principal"] = who
-        await self._app(scope, _measured(receive, limit), send)
+        scope["principal_now"] = lambda: self._who(connection)
+        await self._app(scope, measured(receive, limit_of(endpoint)), send)
 
-    def _endpoint(self, scope: Scope) -> tuple[Callable[..., object] | None, bool]:
-        """What a request is for, and whether the path is known under another method."""
-        known = False
+    def _endpoint(self, scope: Scope) -> Callable[..., object] | None:
+        """What a request is for; None where nothing is there, or not by this method."""
         for route in self._routes:
             match, child = route.matches(scope)
             if match is Match.FULL:
-                return child.get("endpoint"), True
-            known = known or match is Match.PARTIAL
-        return None, known
+                endpoint: Callable[..., object] | None = child.get("endpoint")
+                return endpoint
+        return None
 
     def _who(self, connection: HTTPConnection) -> Principal | None:
         """Who is asking.
@@ -128,6 +114,19 @@ class Gate:
         secret = connection.cookies.get(self._exposure.cookie)
         return None if not secret else self._site.sessions.who(secret)
 
+    def _with_headers(self, send: Send, policy: str) -> Send:
+        fixed = {**HEADERS, "content-security-policy": policy}
+        if self._exposure.secure:
+            fixed["strict-transport-security"] = "max-age=31536000"
+        extra = [(name.encode(), value.encode()) for name, value in fixed.items()]
+
+        async def telling(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message = {**message, "headers": [*message.get("headers", []), *extra]}
+            await send(message)
+
+        return telling
+
     def _foreign(self, connection: HTTPConnection, scope: Scope) -> Response | None:
         """Whether another site is behind it (RELIABILITY, S2)."""
         host = connection.headers.get("host", "")
@@ -141,7 +140,7 @@ class Gate:
         if fetched is not None:
             same = fetched in {"same-origin", "none"}
         elif origin is not None:
-            same = urlsplit(origin).netloc == host
+            same = _authority(origin) == host
         else:
             same = not connection.cookies.get(self._exposure.cookie)  # no browser, nothing to steal
         if same:
@@ -149,58 +148,27 @@ class Gate:
         return answered(Forbidden("this comes from another site"))
 
 
-def _check(endpoint: Callable[..., object] | None, who: Principal | None, *, known: bool) -> None:
-    """Roles come before bodies, paths and methods."""
+def _authority(origin: str) -> str:
+    try:
+        return urlsplit(origin).netloc
+    except ValueError:
+        return ""
+
+
+def _check(endpoint: Callable[..., object] | None, who: Principal | None) -> None:
+    """Roles come before bodies, paths and methods; what has no roles is for nobody."""
     case: UseCase | None = getattr(endpoint, MARK, None)
-    if case is None:
-        if who is None and not (known and endpoint is not None):
-            raise SignInNeeded("sign in first")
-        return
-    if case.roles is None:
+    if case is not None and case.roles is None:
         return
     if who is None:
         raise SignInNeeded("sign in first")
+    if endpoint is None:
+        return  # the app says that there is no such path, or which methods there are
+    if case is None or case.roles is None:
+        raise Forbidden("nobody has said who may do this")
     if who.role not in case.roles:
         names = ", ".join(sorted(role.value for role in case.roles))
         raise Forbidden(f"{case.name} is for {names}; {who.name} is {who.role.value}")
-
-
-def _check_body(connection: HTTPConnection, method: str, limit: int) -> None:
-    length = connection.headers.get("content-length", "")
-    if length.isdigit() and int(length) > limit:
-        raise TooLarge(f"the body has {length} bytes; expected at most {limit}")
-    has_body = length not in {"", "0"} or "transfer-encoding" in connection.headers
-    if method in SAFE or not has_body:
-        return
-    kind = connection.headers.get("content-type", "").split(";")[0].strip().lower()
-    if kind not in {"application/json", "text/csv", "image/png", "image/jpeg"}:
-        raise WrongType(f"{kind[:60] or 'no type'} came; expected application/json")
-
-
-def _measured(receive: Receive, limit: int) -> Receive:
-    """A body that is measured while it comes."""
-    size = 0
-
-    async def next_piece() -> Message:
-        nonlocal size
-        message = await receive()
-        size += len(message.get("body", b""))
-        if size > limit:
-            raise HTTPException(413, f"the body is longer than {limit} bytes")
-        return message
-
-    return next_piece
-
-
-def _with_headers(send: Send, policy: str) -> Send:
-    async def telling(message: Message) -> None:
-        if message["type"] == "http.response.start":
-            fixed = {**HEADERS, "content-security-policy": policy}
-            extra = [(name.encode(), value.encode()) for name, value in fixed.items()]
-            message = {**message, "headers": [*message.get("headers", []), *extra]}
-        await send(message)
-
-    return telling
 
 
 async def _refuse(response: Response, scope: Scope, receive: Receive, send: Send) -> None:

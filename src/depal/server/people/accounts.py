@@ -1,5 +1,6 @@
 """People with a name, a role and a password."""
 
+import threading
 from dataclasses import dataclass
 
 from argon2 import PasswordHasher
@@ -11,7 +12,7 @@ from depal.errors import Problem
 from depal.logistics.store import Database
 from depal.logistics.store.served_tables import AccountRow, SessionRow
 from depal.server.chance import Chance
-from depal.server.problems import Conflict, NotFound, Unusable
+from depal.server.problems import Conflict, NotFound, Stale, TooMany, Unusable
 from depal.server.roles import PEOPLE, Role
 
 SHORTEST, LONGEST = 10, 200
@@ -19,6 +20,10 @@ SHORTEST, LONGEST = 10, 200
 
 NAME = 40
 """The longest name [characters]."""
+
+
+AT_ONCE, PATIENCE = 2, 1.0
+"""So many passwords are checked at once, each with much memory; others wait so long [s]."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +56,7 @@ class Accounts:
         """
         self._database, self._chance, self._hasher = database, chance, hasher
         self._nobody = hasher.hash("nobody has this password")
+        self._turns = threading.BoundedSemaphore(AT_ONCE)
 
     @property
     def any(self) -> bool:
@@ -92,20 +98,19 @@ class Accounts:
         if problems:
             raise Unusable("this account cannot be made", problems)
 
-    def change(self, name: str, role: Role) -> PersonView:
-        """Another role.
+    def change(self, name: str, role: Role, version: int | None = None) -> PersonView:
+        """Another role; of the version that is given, or of any.
 
         Raises:
             NotFound: there is nobody of that name.
+            Stale: somebody has changed it.
             Conflict: the last integrator would be gone.
         """
         problems = _role_problems(role)
         if problems:
             raise Unusable("this role cannot be given", problems)
         with self._database.session() as session:
-            row = session.get(AccountRow, name)
-            if row is None:
-                raise NotFound(f"there is no person called {name!r}")
+            row = _row(session, name, version)
             if role is not Role.INTEGRATOR:
                 _keep_one(session, row)
             row.role, row.version = role.value, row.version + 1
@@ -124,42 +129,56 @@ class Accounts:
             raise Unusable("this password cannot be used", problems)
         hashed = self._hasher.hash(password)
         with self._database.session() as session:
-            row = session.get(AccountRow, name)
-            if row is None:
-                raise NotFound(f"there is no person called {name!r}")
+            row = _row(session, name)
             row.password, row.version = hashed, row.version + 1
             session.execute(delete(SessionRow).where(SessionRow.account == name))
 
-    def remove(self, name: str) -> None:
+    def remove(self, name: str, version: int | None = None) -> None:
         """Somebody leaves.
 
         Raises:
             NotFound: there is nobody of that name.
+            Stale: somebody has changed it.
             Conflict: the last integrator would be gone.
         """
         with self._database.session() as session:
-            row = session.get(AccountRow, name)
-            if row is None:
-                raise NotFound(f"there is no person called {name!r}")
+            row = _row(session, name, version)
             _keep_one(session, row)
             session.execute(delete(SessionRow).where(SessionRow.account == name))
             session.delete(row)
 
     def matches(self, name: str, password: str) -> PersonView | None:
-        """The person of that name with that password; as slow where there is none."""
+        """The person of that name with that password; as slow where there is none.
+
+        Raises:
+            TooMany: many others are signing in at this moment.
+        """
         with self._database.session() as session:
             row = session.get(AccountRow, name)
             kept = self._nobody if row is None else row.password
             view = None if row is None else _view(row)
+        if not self._turns.acquire(timeout=PATIENCE):
+            raise TooMany("many people sign in at this moment; try again", after=PATIENCE)
         try:
             self._hasher.verify(kept, password[:LONGEST])
         except (VerifyMismatchError, InvalidHashError):
             return None
+        finally:
+            self._turns.release()
         return view
 
 
 def _view(row: AccountRow) -> PersonView:
     return PersonView(row.name, Role(row.role), row.created, row.version)
+
+
+def _row(session: Session, name: str, version: int | None = None) -> AccountRow:
+    row = session.get(AccountRow, name)
+    if row is None:
+        raise NotFound(f"there is no person called {name!r}")
+    if version is not None and version != row.version:
+        raise Stale(f"{name!r} has version {row.version} now")
+    return row
 
 
 def _keep_one(session: Session, row: AccountRow) -> None:
@@ -175,9 +194,10 @@ def _keep_one(session: Session, row: AccountRow) -> None:
 
 
 def _name_problems(name: str) -> list[Problem]:
-    if 1 <= len(name) <= NAME and name.isprintable() and name == name.strip():
+    plain = name.isprintable() and name == name.strip() and "/" not in name
+    if 1 <= len(name) <= NAME and plain and set(name) != {"."}:
         return []
-    return [Problem("name", f"{name[:NAME]!r}", f"1 to {NAME} printable characters")]
+    return [Problem("name", f"{name[:NAME]!r}", f"1 to {NAME} printable characters, no slash")]
 
 
 def _role_problems(role: Role) -> list[Problem]:

@@ -1,7 +1,7 @@
 """Guessing passwords is slow: after some failures an account and an address have to wait."""
 
 import threading
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from depal.server.chance import Chance
 from depal.server.problems import TooMany
@@ -34,23 +34,23 @@ class Limits:
         self._failures: dict[tuple[str, str], _Failures] = {}
         self._lock = threading.Lock()
 
-    def check(self, account: str, address: str) -> None:
-        """Whether a try is allowed now.
+    def attempt(self, account: str, address: str) -> None:
+        """A try begins; until it has succeeded it counts as a failure.
+
+        So many at once are as many as one after the other.
+
+        Args:
+            account: whose password is tried; "" where it is not about an account.
+            address: from where.
 
         Raises:
             TooMany: not yet; it says when.
         """
         now = self._chance.now()
         with self._lock:
-            waits = [self._wait(key, now) for key in _keys(account, address)]
-        wait = max(waits)
-        if wait > 0.0:
-            raise TooMany(f"too many tries; try again in {wait:.0f} s", after=wait)
-
-    def failed(self, account: str, address: str) -> None:
-        """A try has failed."""
-        now = self._chance.now()
-        with self._lock:
+            wait = max(self._wait(key, now) for key in _keys(account, address))
+            if wait > 0.0:
+                raise TooMany(f"too many tries; try again in {wait:.0f} s", after=wait)
             if len(self._failures) > MANY:
                 self._forget(now)
             for key in _keys(account, address):
@@ -60,10 +60,12 @@ class Limits:
                 self._failures[key] = _Failures(count, now)
 
     def succeeded(self, account: str, address: str) -> None:
-        """The right password: the account's failures are forgotten, the address' are not."""
-        del address
+        """The right password: the account's failures are forgotten, the address' others are not."""
         with self._lock:
             self._failures.pop(("account", account), None)
+            before = self._failures.get(("address", address))
+            if before is not None:
+                self._failures["address", address] = replace(before, count=before.count - 1)
 
     def _wait(self, key: tuple[str, str], now: float) -> float:
         failures = self._failures.get(key)
@@ -80,5 +82,6 @@ class Limits:
         self._failures = dict(newest)
 
 
-def _keys(account: str, address: str) -> tuple[tuple[str, str], tuple[str, str]]:
-    return ("account", account), ("address", address)
+def _keys(account: str, address: str) -> list[tuple[str, str]]:
+    named = [("account", account)] if account else []
+    return [*named, ("address", address)]

@@ -1,6 +1,7 @@
 """What the store's side keeps: the queue, runs, questions, requests, pictures, settings."""
 
 from depal.server.records.pictures import Pictures, PictureView
+from depal.server.records.products import Products
 from depal.server.records.questions import Questions, QuestionView
 from depal.server.records.queue import Queue, QueuedView
 from depal.server.records.repeats import Repeats
@@ -13,6 +14,7 @@ __all__ = [
     "KeptSettings",
     "PictureView",
     "Pictures",
+    "Products",
     "QuestionView",
     "Questions",
     "Queue",

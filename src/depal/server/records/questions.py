@@ -3,7 +3,7 @@
 import json
 from dataclasses import dataclass
 
-from sqlalchemy import select
+from sqlalchemy import select, tuple_
 
 from depal.logistics.store import Database
 from depal.logistics.store.served_tables import QuestionRow
@@ -90,12 +90,29 @@ class Questions:
                 raise NotFound(f"there is no question {name!r}")
             return _view(row)
 
-    def list(self, *, open_only: bool = False, limit: int = 100) -> tuple[QuestionView, ...]:
-        """The newest first."""
+    def list(
+        self, *, open_only: bool = False, limit: int = 100, before: str | None = None
+    ) -> tuple[QuestionView, ...]:
+        """The newest first.
+
+        Args:
+            open_only: only those that nobody has answered.
+            limit: so many at the most.
+            before: the last one of the page before.
+
+        Raises:
+            NotFound: there is no question `before`.
+        """
+        order = (QuestionRow.run, QuestionRow.asked, QuestionRow.id)
         with self._database.session() as session:
-            query = select(QuestionRow).order_by(QuestionRow.asked.desc(), QuestionRow.id)
+            query = select(QuestionRow).order_by(*(column.desc() for column in order))
             if open_only:
                 query = query.where(QuestionRow.answered.is_(None))
+            if before is not None:
+                row = session.get(QuestionRow, before)
+                if row is None:
+                    raise NotFound(f"there is no question {before!r}")
+                query = query.where(tuple_(*order) < tuple_(row.run, row.asked, row.id))
             return tuple(_view(row) for row in session.scalars(query.limit(limit)))
 
 

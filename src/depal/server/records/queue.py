@@ -1,9 +1,10 @@
 """The queue of deliveries: uploaded, checked, waiting, running, done."""
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass
 
-from sqlalchemy import func, select
+from sqlalchemy import Row, func, select
 from sqlalchemy.orm import Session
 
 from depal.domain import Delivery
@@ -54,33 +55,63 @@ class Queue:
         Raises:
             Conflict: there is one of that name.
         """
-        with self._database.session() as session:
-            if session.get(QueuedRow, delivery.id) is not None:
-                raise Conflict(f"there is a delivery {delivery.id!r} already")
-            row = QueuedRow(
-                id=delivery.id,
-                body=json.dumps(document_of(delivery)),
-                by=by,
-                at=self._chance.now(),
-                state=QUEUED,
-                position=_last(session) + 1,
-                version=1,
-            )
-            session.add(row)
-            session.flush()
-            return _view(session, row)
+        return self.add_all([delivery], by)[0]
 
-    def list(self, *states: str) -> tuple[QueuedView, ...]:
-        """Those in some states, or all: what waits first, in its order, then the newest."""
+    def add_all(self, deliveries: Iterable[Delivery], by: str) -> tuple[QueuedView, ...]:
+        """All of them, at the end, or none.
+
+        Raises:
+            Conflict: there is one of such a name.
+        """
         with self._database.session() as session:
-            query = select(QueuedRow)
+            rows = [self._row_of(session, delivery, by) for delivery in deliveries]
+            return tuple(_view(session, row) for row in rows)
+
+    def _row_of(self, session: Session, delivery: Delivery, by: str) -> QueuedRow:
+        if session.get(QueuedRow, delivery.id) is not None:
+            raise Conflict(f"there is a delivery {delivery.id!r} already")
+        row = QueuedRow(
+            id=delivery.id,
+            body=json.dumps(document_of(delivery)),
+            by=by,
+            at=self._chance.now(),
+            state=QUEUED,
+            position=_last(session) + 1,
+            version=1,
+        )
+        session.add(row)
+        session.flush()
+        return row
+
+    def known(self, names: Iterable[str]) -> frozenset[str]:
+        """Those of some names that are there, in whatever state."""
+        with self._database.session() as session:
+            return frozenset(name for name in names if session.get(QueuedRow, name) is not None)
+
+    def list(
+        self, *states: str, after: str | None = None, limit: int | None = None
+    ) -> tuple[QueuedView, ...]:
+        """Those in some states, or all: what waits first, in its order, then the newest.
+
+        Args:
+            states: wanted.
+            after: the last one of the page before.
+            limit: of the page.
+
+        Raises:
+            NotFound: there is no delivery `after`.
+        """
+        with self._database.session() as session:
+            columns = (QueuedRow.id, QueuedRow.state, QueuedRow.position, QueuedRow.at)
+            query = select(*columns)
             if states:
                 query = query.where(QueuedRow.state.in_(states))
-            rows = sorted(
-                session.scalars(query),
-                key=lambda row: (row.state != RUNNING, row.state != QUEUED, _order(row)),
-            )
-            return tuple(_view(session, row) for row in rows)
+            names = [name for name, *_ in sorted(session.execute(query), key=_order)]
+            if after is not None and after not in names:
+                raise NotFound(f"there is no delivery {after!r}")
+            first = 0 if after is None else names.index(after) + 1
+            page = names[first:] if limit is None else names[first : first + limit]
+            return tuple(_view(session, _row(session, name)) for name in page)
 
     def get(self, name: str) -> tuple[QueuedView, Delivery]:
         """A delivery, whole.
@@ -141,8 +172,10 @@ class Queue:
             return _view(session, row)
 
 
-def _order(row: QueuedRow) -> float:
-    return float(row.position) if row.state == QUEUED else -row.at
+def _order(row: Row[str, str, int, float]) -> tuple[bool, bool, float, str]:
+    name, state, position, at = row
+    place = float(position) if state == QUEUED else -at
+    return state != RUNNING, state != QUEUED, place, name
 
 
 def _row(session: Session, name: str) -> QueuedRow:

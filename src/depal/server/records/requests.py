@@ -8,7 +8,6 @@ from sqlalchemy.orm import Session
 from depal.domain import BoxId, Gtin, Request
 from depal.logistics.store import Database
 from depal.logistics.store.request_book import (
-    KeptRequest,
     RequestState,
     keep_request,
     read_requests_in,
@@ -36,6 +35,7 @@ class RequestView:
         created: seconds since 1970.
         run: whose box it wants; None for a product.
         version: rises with every change.
+        number: in the order of their acceptance.
     """
 
     key: str
@@ -49,6 +49,7 @@ class RequestView:
     created: float
     run: int | None
     version: int
+    number: int
 
 
 class Requests:
@@ -61,7 +62,7 @@ class Requests:
     def add(
         self, key: str, request: Request, *, by: str, run: int | None, due: float | None
     ) -> RequestView:
-        """One more.
+        """One more; one of that name that is there already stays as it is.
 
         Args:
             key: its name.
@@ -71,6 +72,8 @@ class Requests:
             due: seconds since 1970.
         """
         with self._database.session() as session:
+            if session.get(RequestOriginRow, key) is not None:
+                return _view(session, key)
             keep_request(session, key, request)
             origin = RequestOriginRow(
                 key=key, run=run, by=by, created=self._chance.now(), due=due, version=1
@@ -102,14 +105,31 @@ class Requests:
             )
             return tuple(_view(session, key) for key in session.scalars(query).all())
 
-    def waiting(self, run: int | None = None) -> tuple[KeptRequest, ...]:
-        """What is wanted of the next run: products, and boxes of that very run."""
+    def waiting(self, run: int | None, now: float) -> tuple[tuple[str, Request], ...]:
+        """What is wanted of a run: products, and boxes of that very run.
+
+        Args:
+            run: which.
+            now: on the cell's clock [s]. It may be another clock than the one on which they came:
+                they have all come by now, and what was due in a minute still is.
+
+        Returns:
+            Requests by key, in the order of their acceptance.
+        """
         with self._database.session() as session:
             kept = read_requests_in(session, [RequestState.PENDING])
-            origins = {row.key: row.run for row in session.scalars(select(RequestOriginRow))}
+            origins = {row.key: row for row in session.scalars(select(RequestOriginRow))}
             return tuple(
-                each for each in kept if each.request.box is None or origins.get(each.key) == run
+                (each.key, self._on_clock(each.request, origins[each.key].due, now))
+                for each in kept
+                if each.key in origins
+                and (each.request.box is None or origins[each.key].run == run)
             )
+
+    def _on_clock(self, request: Request, due: float | None, now: float) -> Request:
+        arrived = min(request.arrived, now)
+        ahead = None if due is None else max(now + due - self._chance.now(), arrived)
+        return replace(request, arrived=arrived, due=ahead)
 
     def change(
         self, key: str, version: int, priority: float, due: tuple[float | None, float | None]
@@ -200,9 +220,5 @@ def _view(session: Session, key: str) -> RequestView:
         origin.created,
         origin.run,
         origin.version,
+        row.number,
     )
-
-
-def at_clock(kept: KeptRequest, now: float) -> Request:
-    """A kept request for a run that begins now: it has arrived already [s]."""
-    return replace(kept.request, arrived=min(kept.request.arrived, now))

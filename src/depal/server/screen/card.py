@@ -1,6 +1,6 @@
 """The card that says what to do now."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Awaitable, Callable, Sequence
 from inspect import isawaitable
 
 from nicegui import ui
@@ -84,7 +84,7 @@ class Card:
         if act.verb is Verb.BRING:
             choose(button, ACCEPT, self._words("file.too_large"), self._bring)
         else:
-            button.on_click(self._doing(act, waiting))
+            button.on_click(_showing(button, self._doing(act, waiting)))
 
     async def _bring(self, name: str, content: bytes) -> None:
         done = self._words("done.upload", name=name)
@@ -97,7 +97,7 @@ class Card:
         if isawaitable(found):
             await found
 
-    def _doing(self, act: Act, waiting: Sequence[QueuedView]) -> Callable[[], object]:
+    def _doing(self, act: Act, waiting: Sequence[QueuedView]) -> Callable[[], Awaitable[None]]:
         delivery = next((each.id for each in waiting if each.id == act.about), None)
 
         async def do() -> None:
@@ -118,6 +118,20 @@ class Card:
                 await self._guard.do(done, desk.answer, act.about, act.choice)
 
         return do
+
+
+def _showing(button: ui.button, do: Callable[[], Awaitable[None]]) -> Callable[[], Awaitable[None]]:
+    """A button that shows that it has been pressed until what it does is done."""
+
+    async def press() -> None:
+        button.props("loading")
+        try:
+            await do()
+        finally:
+            if not button.is_deleted:
+                button.props(remove="loading")
+
+    return press
 
 
 def _told(todo: Todo) -> Markup:

@@ -169,11 +169,18 @@ class Desk:
         gtin: str | None,
         box: str | None,
         priority: float,
-        minutes: float | None,
+        due: float | None,
         repeat: str | None = None,
     ) -> None:
-        """Asks for a product or a box, once for each `repeat`."""
-        due = None if minutes is None else self.site.chance.now() + 60 * minutes
+        """Asks for a product or a box.
+
+        Args:
+            gtin: the product.
+            box: or the box.
+            priority: p in [0, 1].
+            due: seconds since 1970, if at all.
+            repeat: the same one asks once.
+        """
         wanting.add_request(
             self.site, self.me(), gtin=gtin, box=box, priority=priority, due=due, repeat=repeat
         )

@@ -1,7 +1,7 @@
 """News of the cell for everybody who looks: watched once, shown to each viewer as often as useful.
 
-The arm moves all the time: that is shown at most ten times a second. What people act on (a question,
-a mode, another box) does not wait for the next of these moments.
+The arm moves all the time: that is shown at most ten times a second. What people act on (a
+question, a mode, another box) does not wait for the next of these moments.
 """
 
 import asyncio

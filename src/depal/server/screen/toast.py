@@ -8,6 +8,7 @@ from depal.errors import DepalError, InputError
 from depal.server.problems import Answer, SignInNeeded
 from depal.server.screen.desk import asked
 from depal.server.screen.said import Said
+from depal.server.screen.words import Words
 
 ENTRANCE = "/sign-in"
 
@@ -26,20 +27,21 @@ def refused(message: str) -> None:
 
 
 class Guard:
-    """One command at a time for each window: what is pressed meanwhile was pressed twice.
+    """One command at a time for each window: the same one meanwhile was pressed twice.
 
     Attributes:
         problems: all that was wrong with what was refused last.
     """
 
-    def __init__(self, said: Said) -> None:
+    def __init__(self, words: Words, said: Said) -> None:
         """Nothing is under way.
 
         Args:
+            words: of the screen.
             said: puts what the cell says into the screen's language.
         """
-        self._said = said
-        self._busy = False
+        self._words, self._said = words, said
+        self._under_way: tuple[object, ...] | None = None
         self.problems: tuple[str, ...] = ()
 
     async def do(
@@ -60,9 +62,11 @@ class Guard:
         Returns:
             Whether it was done; else it was refused, or something else is under way.
         """
-        if self._busy:
+        if self._under_way is not None:
+            if self._under_way != (command, arguments):
+                refused(self._words("done.wait"))
             return False
-        self._busy, self.problems = True, ()
+        self._under_way, self.problems = (command, arguments), ()
         try:
             await asked(command, *arguments)
         except SignInNeeded:
@@ -72,7 +76,7 @@ class Guard:
             self._refuse(error, listed=listed)
             return False
         finally:
-            self._busy = False
+            self._under_way = None
         if message:
             told(message)
         return True

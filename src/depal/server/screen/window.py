@@ -36,7 +36,7 @@ class Window:
         """
         self._desk, self._hub = desk, hub
         self._language, self._words = language, words_of(language)
-        self._guard = Guard(said_in(language))
+        self._guard = Guard(self._words, said_in(language))
         self._sections: dict[str, ui.element] = {}
         self._tabs: dict[str, ui.button] = {}
         self._end: Callable[[], None] = lambda: None

@@ -1,27 +1,18 @@
 """Requests: those that wait, with an estimate; more, other, fewer of them."""
 
 from collections.abc import Sequence
-from uuid import uuid4
 
 from nicegui import ui
 
 from depal.server.cellstate import CellState, RequestState
 from depal.server.roles import WORKERS
-from depal.server.screen.choosing import Choosing
 from depal.server.screen.desk import Desk, asked
 from depal.server.screen.markup import Markup, tag
 from depal.server.screen.pane import html, put
-from depal.server.screen.toast import Guard, refused
+from depal.server.screen.toast import Guard
+from depal.server.screen.wishform import LEVELS, WishForm, level_of
 from depal.server.screen.words import Words
 from depal.server.usecases.deliveries import ProductView
-
-LEVELS = {"soon": 0.3, "next": 0.6, "now": 0.9}
-"""What a person says, and the p of the paper that it means."""
-
-
-def level_of(priority: float) -> str:
-    """The word that is nearest to a priority."""
-    return min(LEVELS, key=lambda level: abs(LEVELS[level] - priority))
 
 
 def estimate(request: RequestState, words: Words, *, seen: bool) -> str:
@@ -113,7 +104,7 @@ class Wishes:
                     button.props("no-caps unelevated").classes("act").mark("add request")
             self._none = html(words("wish.none"), "p").classes("quiet")
             self._list = ui.element("ul")
-        self._form = ui.dialog()
+        self._form = WishForm(desk, words, guard)
 
     def name_products(self, products: Sequence[ProductView]) -> None:
         """What products are called."""
@@ -144,46 +135,8 @@ class Wishes:
         return self._names.get(request.gtin or "", request.gtin or "")
 
     async def _open(self) -> None:
-        words = self._words
         self.name_products(await asked(self._desk.products))
-        self._form.clear()
-        repeat = uuid4().hex
-        self._form.props["aria-label"] = words("wish.add_title")
-        with self._form, ui.card().classes("form"):
-            html(words("wish.add_title"), "h3")
-            options = {f"p {gtin}": name for gtin, name in self._names.items()}
-            options |= {f"b {box}": words("wish.box", box=box) for box in self._boxes}
-            what = Choosing(options, words("wish.what"), words)
-            levels = {level: words(f"wish.{level}") for level in LEVELS}
-            level = ui.toggle(levels, value="next").props("no-caps unelevated spread")
-            level.classes("wide")
-            due = ui.number(words("wish.due_in"), min=1, max=1440, precision=0)
-            due.props("outlined clearable").classes("wide")
-            with ui.element("div").classes("acts"):
-                cancel = ui.button(words("act.close"), color=None, on_click=self._form.close)
-                cancel.props("no-caps unelevated").classes("act")
-
-                async def add() -> None:
-                    wanted = (what.chosen, LEVELS[level.value or "next"], due.value)
-                    await self._add(*wanted, repeat)
-
-                button = ui.button(words("wish.add"), icon="add", color=None, on_click=add)
-                button.props("no-caps unelevated").classes("act is-main").mark("send request")
-        self._form.open()
-
-    async def _add(
-        self, what: str | None, priority: float, minutes: float | None, repeat: str
-    ) -> None:
-        if not what:
-            refused(self._words("wish.choose"))
-            return
-        kind, _, name = what.partition(" ")
-        gtin, box = (name, None) if kind == "p" else (None, name)
-        done = await self._guard.do(
-            self._words("done.wish"), self._desk.add_request, gtin, box, priority, minutes, repeat
-        )
-        if done:
-            self._form.close()
+        self._form.open(self._names, self._boxes)
 
 
 def _ordered(requests: Sequence[RequestState]) -> list[RequestState]:

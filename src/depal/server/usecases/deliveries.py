@@ -8,8 +8,9 @@ from depal.errors import DeliveryError, Problem
 from depal.logistics import deliveries_in
 from depal.logistics.gtin import gtin_fault
 from depal.logistics.store import by_storage
-from depal.server.problems import NotFound, TooLarge, Unusable
+from depal.server.problems import TooLarge, Unusable
 from depal.server.records import PictureView, QueuedView
+from depal.server.records.products import version_of
 from depal.server.roles import ALL, PEOPLE, SET_UP, WORKERS, Principal
 from depal.server.site import Site
 from depal.server.usecases.registry import use_case
@@ -19,6 +20,11 @@ LARGEST = 5 * 2**20
 
 EDGES, HEAVIEST = (0.02, 2.0), 100.0
 """Of a case: its edges [m] and its mass [kg]."""
+
+LONGEST = 100
+"""Of the name of a delivery, which is part of an address [characters]."""
+
+MOST = 500
 
 NAME = 200
 """The longest name of a product [characters]."""
@@ -69,6 +75,7 @@ class ProductView:
         mass: of a full case [kg].
         places: where it belongs, best first.
         pictures: of its faces.
+        version: of all but the pictures.
     """
 
     gtin: str
@@ -77,13 +84,16 @@ class ProductView:
     mass: float
     places: tuple[str, ...]
     pictures: tuple[PictureView, ...] = ()
+    version: int = 0
 
 
 @use_case(PEOPLE)
-def list_deliveries(site: Site, who: Principal | None) -> tuple[QueuedView, ...]:
-    """The queue of deliveries, and those that are done."""
+def list_deliveries(
+    site: Site, who: Principal | None, after: str | None = None, limit: int = MOST
+) -> tuple[QueuedView, ...]:
+    """The queue of deliveries, then those that are done, the newest first."""
     del who
-    return site.queue.list()
+    return site.queue.list(after=after, limit=max(1, min(limit, MOST)))
 
 
 @use_case(PEOPLE)
@@ -102,7 +112,7 @@ def add_deliveries(
     by = "nobody" if who is None else who.name
     places = by_storage(site.cell.layout.places, without=site.cell.layout.aside)
     site.store.seed_places(found, places)
-    return tuple(site.queue.add(delivery, by) for delivery in found)
+    return site.queue.add_all(found, by)
 
 
 @use_case(WORKERS)
@@ -119,22 +129,22 @@ def _read(site: Site, text: str, file: str) -> tuple[Delivery, ...]:
         raise TooLarge(f"the file is larger than {LARGEST} bytes")
     name = Path(PurePosixPath(file.replace("\\", "/")).name[:100] or "upload.json")
     found = deliveries_in(text, name)
+    known = site.queue.known(delivery.id for delivery in found)
     problems = [
-        Problem(delivery.id, f"delivery {delivery.id!r} is in the queue already", "another name")
+        Problem(delivery.id, f"there is a delivery {delivery.id!r} already", "another name")
         for delivery in found
-        if _known(site, delivery.id)
+        if delivery.id in known
+    ]
+    problems += [
+        Problem(
+            "id", f"{delivery.id[:LONGEST]!r}", f"at most {LONGEST} characters, and no dots alone"
+        )
+        for delivery in found
+        if len(delivery.id) > LONGEST or set(delivery.id) == {"."}
     ]
     if problems:
         raise DeliveryError(str(name), problems)
     return found
-
-
-def _known(site: Site, name: str) -> bool:
-    try:
-        site.queue.get(name)
-    except NotFound:
-        return False
-    return True
 
 
 @use_case(WORKERS, command=True)
@@ -162,17 +172,16 @@ def list_products(
     """The products that the store knows, by name or number."""
     del who
     found = site.store.products(search, after, max(1, min(limit, 500)))
-    return tuple(_product(site, product, pictures=False) for product in found)
+    return tuple(_in_list(site, product) for product in found)
 
 
 @use_case(ALL)
 def get_product(site: Site, who: Principal | None, gtin: str) -> ProductView:
     """A product with its places and pictures."""
     del who
-    product = site.store.product(Gtin(gtin))
-    if product is None:
-        raise NotFound(f"there is no product {gtin!r}")
-    return _product(site, product, pictures=True)
+    product, places, version = site.products.get(Gtin(gtin))
+    pictures = site.pictures.list(gtin)
+    return ProductView(gtin, product.name, product.size, product.mass, places, pictures, version)
 
 
 @use_case(SET_UP, command=True)
@@ -183,9 +192,9 @@ def put_product(
     name: str,
     size: tuple[float, float, float],
     mass: float,
+    version: int | None = None,
 ) -> ProductView:
     """Add a product, or change what is known of it."""
-    del who
     problems = []
     fault = gtin_fault(gtin)
     if fault is not None:
@@ -200,21 +209,21 @@ def put_product(
         problems.append(Problem("mass", f"{mass!r}", expected))
     if problems:
         raise Unusable("this product cannot be kept", problems)
-    product = Product(Gtin(gtin), name, size, mass)
-    site.store.keep_product(product)
-    return _product(site, product, pictures=True)
+    site.products.put(Product(Gtin(gtin), name, size, mass), version)
+    return get_product(site, who, gtin)
 
 
 @use_case(SET_UP, command=True)
 def assign_product(
-    site: Site, who: Principal | None, gtin: str, places: tuple[str, ...]
+    site: Site,
+    who: Principal | None,
+    gtin: str,
+    places: tuple[str, ...],
+    version: int | None = None,
 ) -> ProductView:
     """Say where a product belongs, best first."""
-    product = site.store.product(Gtin(gtin))
-    if product is None:
-        raise NotFound(f"there is no product {gtin!r}")
     site.store.keep_places(site.cell.layout.places.values())
-    site.store.assign({Gtin(gtin): [PlaceId(place) for place in places]})
+    site.products.assign(Gtin(gtin), [PlaceId(place) for place in places], version)
     return get_product(site, who, gtin)
 
 
@@ -254,12 +263,9 @@ def see_stock(site: Site, who: Principal | None) -> tuple[StockLine, ...]:
     return tuple(StockLine(place, gtin, count) for (place, gtin), count in stock.items())
 
 
-def _product(site: Site, product: Product, *, pictures: bool) -> ProductView:
+def _in_list(site: Site, product: Product) -> ProductView:
+    places = site.store.assignment(product.gtin)
+    version = version_of(product, places)
     return ProductView(
-        product.gtin,
-        product.name,
-        product.size,
-        product.mass,
-        site.store.assignment(product.gtin),
-        site.pictures.list(product.gtin) if pictures else (),
+        product.gtin, product.name, product.size, product.mass, places, version=version
     )

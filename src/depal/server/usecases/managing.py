@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from pathlib import Path
 
+from depal import __version__
 from depal.errors import Problem
 from depal.server.people import AuditLine, PersonView, TokenView
 from depal.server.problems import Conflict, Forbidden, NotFound, SignInNeeded, Unusable
@@ -48,12 +49,33 @@ class Verified:
     broken: int | None
 
 
+@dataclass(frozen=True, slots=True)
+class Health:
+    """That the server answers.
+
+    Attributes:
+        status: "ok".
+        version: of depal.
+    """
+
+    status: str
+    version: str
+
+
+@use_case(None)
+def see_health(site: Site, who: Principal | None) -> Health:
+    """Whether the server answers, and which version it is."""
+    del site, who
+    return Health("ok", __version__)
+
+
 @use_case(None, command=True, secrets=("code", "password"))
 def make_first_account(
-    site: Site, who: Principal | None, code: str, name: str, password: str
+    site: Site, who: Principal | None, code: str, name: str, password: str, address: str = ""
 ) -> SignedIn:
     """Make the first account with the one-time code of the first start."""
     del who
+    site.limits.attempt("", address)
     if site.accounts.any:
         raise Conflict("there are people already; ask an integrator")
     refusal = Forbidden("this code is good no longer; the cell prints a new one when it starts")
@@ -63,6 +85,7 @@ def make_first_account(
     if not site.codes.use(code):
         raise refusal
     person = site.accounts.add(name, Role.INTEGRATOR, password)
+    site.limits.succeeded("", address)
     return SignedIn(Principal(person.name, person.role), site.sessions.open(person.name))
 
 
@@ -72,10 +95,9 @@ def sign_in(
 ) -> SignedIn:
     """Sign in with a name and a password."""
     del who
-    site.limits.check(name, address)
+    site.limits.attempt(name, address)
     person = site.accounts.matches(name, password)
     if person is None:
-        site.limits.failed(name, address)
         raise SignInNeeded("this name and this password do not belong together")
     site.limits.succeeded(name, address)
     return SignedIn(Principal(person.name, person.role), site.sessions.open(person.name))
@@ -114,17 +136,19 @@ def add_person(
 
 
 @use_case(SET_UP, command=True)
-def change_person(site: Site, who: Principal | None, name: str, role: str) -> PersonView:
+def change_person(
+    site: Site, who: Principal | None, name: str, role: str, version: int | None = None
+) -> PersonView:
     """Give a person another role."""
     del who
-    return site.accounts.change(name, _role(role))
+    return site.accounts.change(name, _role(role), version)
 
 
 @use_case(SET_UP, command=True)
-def remove_person(site: Site, who: Principal | None, name: str) -> None:
+def remove_person(site: Site, who: Principal | None, name: str, version: int | None = None) -> None:
     """Remove a person."""
     del who
-    site.accounts.remove(name)
+    site.accounts.remove(name, version)
 
 
 @use_case(PEOPLE, command=True, secrets=("password",))

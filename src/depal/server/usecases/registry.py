@@ -10,7 +10,14 @@ from typing import Any, Concatenate, ParamSpec, TypeVar, cast
 
 from depal.errors import DepalError, InputError
 from depal.server.cell import Refusal
-from depal.server.problems import Answer, Conflict, Forbidden, SignInNeeded, Unusable
+from depal.server.problems import (
+    Answer,
+    Conflict,
+    Forbidden,
+    SignInNeeded,
+    TooMany,
+    Unusable,
+)
 from depal.server.roles import Principal, Role
 from depal.server.site import Site
 
@@ -78,8 +85,13 @@ def use_case(
             detail = {k: _told(k, v, secrets) for k, v in bound.items() if k not in {"site", "who"}}
             try:
                 result = _plainly(lambda: function(site, who, *args, **kwargs))
+            except TooMany:
+                raise  # whoever hammers at the door does not fill the disk
             except DepalError as error:
                 site.audit.write(who, case.name, detail, str(error)[:LONG])
+                raise
+            except Exception as error:
+                site.audit.write(who, case.name, detail, f"a fault: {type(error).__name__}")
                 raise
             site.audit.write(who, case.name, detail, "done")
             return result

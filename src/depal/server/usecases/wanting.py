@@ -1,6 +1,5 @@
 """Requests and questions: what the store wants, and what the cell wants to know."""
 
-import hashlib
 import math
 
 from depal.domain import BoxId, Gtin, Request
@@ -27,38 +26,57 @@ def add_request(
     box: str | None = None,
     priority: float = 0.5,
     due: float | None = None,
+    due_in: float | None = None,
     repeat: str | None = None,
 ) -> RequestView:
     """Ask for a product or a box; the same Idempotency-Key asks once."""
     name = "nobody" if who is None else who.name
-    body = {"gtin": gtin, "box": box, "priority": priority, "due": due}
+    body = {"gtin": gtin, "box": box, "priority": priority, "due": due, "due_in": due_in}
+    before = None if repeat is None else _asked_before(site, name, repeat, body)
+    if before is not None:
+        return before
+    when = due if due_in is None else site.chance.now() + due_in
+    wanted = _wanted(site, gtin, box, priority, when)
+    run = None if box is None else site.cell.state().run
     key = f"r-{site.chance.secret(9)}"
     if repeat is not None:
-        known = site.repeats.seen(name, repeat, body)
-        if known is not None:
-            return site.requests.get(known)
-        key = "r-" + hashlib.sha256(f"{name}\n{repeat}".encode()).hexdigest()[:16]
+        key = site.repeats.claim(name, repeat, body, key)
+    view = site.requests.add(key, wanted, by=name, run=run, due=when)
+    try:
+        site.cell.add_request(key, wanted)
+    except DepalError as error:
+        site.requests.end(key, served=False, at=wanted.arrived, reason=str(error))
+        if repeat is not None:
+            site.repeats.forget(name, repeat)
+        raise
+    return view
+
+
+def _asked_before(site: Site, name: str, repeat: str, body: object) -> RequestView | None:
+    """What the same request has come to, though it could not be made any more."""
+    key = site.repeats.seen(name, repeat, body)
+    try:
+        return None if key is None else site.requests.get(key)
+    except NotFound:  # the server ended before it was written down
+        return None
+
+
+def _wanted(
+    site: Site, gtin: str | None, box: str | None, priority: float, due: float | None
+) -> Request:
+    """A request that can be served, on the cell's clock."""
     state = site.cell.state()
-    clock_due = _checked_due(site, due, state.at)
-    run = _of_a_box(site, box) if box is not None else None
-    if gtin is not None and box is None:
+    if box is not None:
+        _look_for_box(site, box)
+    elif gtin is not None:
         _of_a_product(site, gtin)
-    request = Request(
+    return Request(
         priority,
         gtin=None if gtin is None else Gtin(gtin),
         box=None if box is None else BoxId(box),
         arrived=state.at,
-        due=clock_due,
+        due=_checked_due(site, due, state.at),
     )
-    if repeat is not None:
-        site.repeats.keep(name, repeat, body, key)
-    view = site.requests.add(key, request, by=name, run=run, due=due)
-    try:
-        site.cell.add_request(key, request)
-    except DepalError as error:
-        site.requests.end(key, served=False, at=state.at, reason=str(error))
-        raise
-    return view
 
 
 def _of_a_product(site: Site, gtin: str) -> None:
@@ -67,7 +85,7 @@ def _of_a_product(site: Site, gtin: str) -> None:
         raise NotFound(f"the store knows no product {gtin[:40]!r}; {did_you_mean(gtin, known)}")
 
 
-def _of_a_box(site: Site, box: str) -> int:
+def _look_for_box(site: Site, box: str) -> None:
     state = site.cell.state()
     if state.run is None:
         raise Conflict("no pallet is worked on, so no box can be asked for")
@@ -77,7 +95,6 @@ def _of_a_box(site: Site, box: str) -> int:
     known = [line.box for line in state.queue]
     if box not in known:
         raise NotFound(f"no box {box[:40]!r} stands on the pallet; {did_you_mean(box, known)}")
-    return state.run
 
 
 def _checked_due(site: Site, due: float | None, at: float) -> float | None:
@@ -122,19 +139,34 @@ def change_request(
     who: Principal | None,
     key: str,
     *,
-    version: int,
-    priority: float,
+    version: int | None = None,
+    priority: float | None = None,
     due: float | None = None,
+    due_in: float | None = None,
+    keep_due: bool = False,
 ) -> RequestView:
     """Change the priority or the due time of a request."""
     del who
-    if not 0.0 <= priority <= 1.0:
-        problem = Problem("priority", f"{priority!r} is out of range", "a number in [0, 1]")
+    kept = site.requests.get(key)
+    p = kept.priority if priority is None else priority
+    if not 0.0 <= p <= 1.0:
+        problem = Problem("priority", f"{p!r} is out of range", "a number in [0, 1]")
         raise Unusable("this request cannot be used", [problem])
-    clock_due = _checked_due(site, due, site.cell.state().at)
-    request = site.requests.change(key, version, priority, (clock_due, due))
+    now = site.cell.state().at
+    when = due if due_in is None else site.chance.now() + due_in
+    if keep_due or when == kept.due:
+        when, clock = kept.due, _overdue_too(site, kept.due, now)
+    else:
+        clock = _checked_due(site, when, now)
+    changed = kept.version if version is None else version
+    request = site.requests.change(key, changed, p, (clock, when))
     site.cell.change_request(key, request)
     return site.requests.get(key)
+
+
+def _overdue_too(site: Site, due: float | None, at: float) -> float | None:
+    """A due time on the cell's clock; one that has passed is now."""
+    return None if due is None else at + max(due - site.chance.now(), 0.0)
 
 
 @use_case(REQUESTERS, command=True)
@@ -152,11 +184,17 @@ def cancel_request(
 
 @use_case(PEOPLE)
 def list_questions(
-    site: Site, who: Principal | None, *, open_only: bool = False, limit: int = 100
+    site: Site,
+    who: Principal | None,
+    *,
+    open_only: bool = False,
+    limit: int = 100,
+    before: str | None = None,
 ) -> tuple[QuestionView, ...]:
     """Questions of the cell to a person, the newest first."""
     del who
-    return site.questions.list(open_only=open_only, limit=max(1, min(limit, MOST)))
+    page = max(1, min(limit, MOST))
+    return site.questions.list(open_only=open_only, limit=page, before=before)
 
 
 @use_case(PEOPLE)
@@ -175,5 +213,7 @@ def answer_question(site: Site, who: Principal | None, name: str, choice: str) -
     if choice not in question.choices:
         problem = Problem("choice", f"{choice[:40]!r}", ", ".join(question.choices))
         raise Unusable("no such answer", [problem])
-    site.cell.answer(name, choice, "nobody" if who is None else who.name)
+    by = "nobody" if who is None else who.name
+    site.cell.answer(name, choice, by)
+    site.questions.answered(name, choice, by, site.cell.state().at)  # where the cell has not yet
     return site.questions.get(name)

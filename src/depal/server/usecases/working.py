@@ -9,8 +9,7 @@ from depal.server.cellstate import CellState, Mode, TaskTree
 from depal.server.events import Event
 from depal.server.problems import Conflict, NotFound, Stale, Unusable
 from depal.server.records import Kept
-from depal.server.records.queue import QUEUED, RUNNING
-from depal.server.records.requests import at_clock
+from depal.server.records.runs import FAILED
 from depal.server.roles import ALL, PEOPLE, SET_UP, WORKERS, Principal
 from depal.server.site import Site
 from depal.server.usecases.registry import use_case
@@ -107,25 +106,26 @@ def start(site: Site, who: Principal | None, delivery: str | None = None) -> Cel
     name = delivery or site.queue.next()
     if name is None:
         raise Conflict("no delivery waits; add one to the queue")
-    view, found = site.queue.get(name)
-    if view.state != QUEUED:
-        raise Conflict(f"delivery {name!r} does not wait: it is {view.state}")
-    _begin(site, who, found)
+    _begin(site, who, site.queue.get(name)[1])
     return site.cell.state()
 
 
 def _begin(site: Site, who: Principal | None, found: Delivery) -> None:
-    """A run is written down before anything moves; what cannot be begun waits again."""
-    number = site.runs.begin(found.id, "nobody" if who is None else who.name)
-    now = site.cell.state().at
-    requests = tuple((kept.key, at_clock(kept, now)) for kept in site.requests.waiting(number))
-    site.queue.mark(found.id, RUNNING)
+    """A run is written down before anything moves; what cannot be begun waits again.
+
+    Of two people who press Start at once one begins the run, and the other is told so.
+    """
+    number = site.runs.begin(found.id, _name(who))
     try:
+        requests = site.requests.waiting(number, site.cell.state().at)
         site.cell.start(Order(number, found, requests))
     except DepalError as error:
-        site.runs.end(number, "failed", {"reason": str(error)})
-        site.queue.mark(found.id, QUEUED)
+        site.runs.end(number, FAILED, {"reason": str(error)})
         raise
+    known = {key for key, _ in requests}
+    for key, request in site.requests.waiting(number, site.cell.state().at):
+        if key not in known:  # it came while the cell began
+            site.cell.add_request(key, request)
 
 
 @use_case(WORKERS, command=True)

@@ -7,7 +7,7 @@ import numpy as np
 from depal.domain import Joints
 from depal.errors import DeviceError
 from depal.executive.clock import Clock
-from depal.ports import Guard, Trajectory
+from depal.ports import Guard, Trajectory, Watch
 from depal.simulation.devices.safety import SimulatedSafety
 from depal.simulation.servo import Motion
 from depal.simulation.world import World
@@ -43,12 +43,15 @@ class SimulatedArm:
         self._world.advance(self._clock.now())
         return self._world.load()
 
-    async def follow(self, trajectory: Trajectory, guard: Guard | None = None) -> str | None:
+    async def follow(
+        self, trajectory: Trajectory, guard: Guard | None = None, watch: Watch | None = None
+    ) -> str | None:
         """Moves along a trajectory that begins where the arm stands.
 
         Args:
             trajectory: the motion.
             guard: asked in every control period; a reason brings the arm to rest on its path.
+            watch: what the arm looks out for by itself, however late this loop is.
 
         Returns:
             None once the arm rests at the end, else the reason why it stopped before.
@@ -60,7 +63,7 @@ class SimulatedArm:
         self._world.advance(self._clock.now())
         self._check(trajectory)
         self._busy = True
-        motion = self._world.begin(trajectory)
+        motion = self._world.begin(trajectory, watch)
         try:
             reason = await self._watch(motion, guard)
             if reason is not None:
@@ -92,6 +95,10 @@ class SimulatedArm:
         self._check_limits(trajectory)
 
     def _check_limits(self, trajectory: Trajectory) -> None:
+        if not (
+            np.isfinite(trajectory.positions).all() and np.isfinite(trajectory.velocities).all()
+        ):
+            raise DeviceError("the trajectory has numbers that are not finite")
         limits = self._world.layout.robot.limits
         rates = np.abs(trajectory.velocities) / np.array(limits.speed)
         if rates.max() > OVER:
@@ -116,11 +123,13 @@ class SimulatedArm:
             await _until(self._clock, min(start + periods * PERIOD, end))
             self._world.advance(self._clock.now())
             reason = "a safety stop is active" if self._safety.state().stopped else None
+            reason = reason or self._world.seen
             if reason is None and guard is not None:
                 reason = guard()
             if reason is not None:
                 return reason
-        return None
+        self._world.advance(end)  # others may have seen that time has come before us
+        return self._world.seen
 
     async def _rest(self) -> None:
         stopping = self._world.stop()

@@ -32,7 +32,7 @@ from depal.simulation.imaging.sensor import Grain
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.imaging.shadows import carried_by, sun_lens, sun_map
 from depal.simulation.imaging.wear import WEAR, Wear, Worn
-from depal.simulation.world import Snapshot
+from depal.simulation.snapshot import Snapshot
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]

@@ -13,7 +13,8 @@ from depal.simulation.imaging import furniture
 from depal.simulation.imaging.atlas import Atlas, AtlasBuilder
 from depal.simulation.imaging.mesh import SIDES, Mesh, capsule, cuboid, joined
 from depal.simulation.imaging.prints import PrintedBoxes
-from depal.simulation.world import Snapshot, World
+from depal.simulation.snapshot import Snapshot
+from depal.simulation.world import World
 
 Floats = npt.NDArray[np.float64]
 Ints = npt.NDArray[np.int64]

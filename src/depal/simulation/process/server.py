@@ -1,12 +1,8 @@
 """One controller at a time works in the world, over a socket that only this user may open."""
 
 import asyncio
-import hashlib
-import json
-import os
-import signal
-import tempfile
 import time
+from collections.abc import Awaitable
 from contextlib import suppress
 from pathlib import Path
 
@@ -16,103 +12,108 @@ from depal.errors import DepalError, DeviceError
 from depal.executive.clock import Pace
 from depal.ports.wire import messages as m
 from depal.ports.wire.codec import encoded, received
+from depal.simulation.process.beside import alone, card, socket_in
+from depal.simulation.process.late import lag_of_this_loop
+from depal.simulation.process.link import Link
 from depal.simulation.process.world import SILENT, Stage, done
 
-SOCKET, CARD = "world.sock", "world.json"
-"""In the data folder: where the world listens, and who it is."""
+SENSED = 0.02
+"""The sensors are told so often [s of the world's time] ..."""
 
-TICK = 0.02
-"""The world goes on, and its sensors are told, so often [s of wall time]."""
-
-REST = 0.5
-"""While nothing changes they are told so often [s of wall time]."""
+OFTEN, SELDOM = 0.004, 0.02
+"""... but not oftener and not more seldom than this [s of wall time]."""
 
 HUNG = 5.0
 """A controller that has said nothing for this long is gone [s of wall time]."""
 
-
-LONGEST = 100
-"""The system takes no longer name for a socket [byte]."""
-
-
-def socket_in(folder: Path) -> Path:
-    """Where the world of a data folder listens; beside other temporary files for a deep one."""
-    socket = (folder / SOCKET).resolve()
-    if len(os.fsencode(socket)) <= LONGEST:
-        return socket
-    digest = hashlib.sha256(os.fsencode(socket)).hexdigest()[:24]
-    return Path(tempfile.gettempdir()) / f"depal-{digest}.sock"
+HEARD = 0.1
+"""A round of the loop that takes longer than this, the world was too busy to listen [s]."""
 
 
 class WorldServer:
-    """The process's only object."""
+    """The process's only object.
 
-    def __init__(self, folder: Path, pace: Pace) -> None:
+    Attributes:
+        stage: where the simulated cell stands.
+    """
+
+    def __init__(self, folder: Path, pace: Pace, patience: float = HUNG) -> None:
         """Not listening yet.
 
         Args:
             folder: the data folder.
             pace: of the world's time.
+            patience: a controller that has said nothing for so long is gone [s of wall time].
         """
-        self._folder, self._pace = folder, pace
-        self._stage = Stage()
-        self._controller: tuple[int, asyncio.StreamWriter] | None = None
+        self.stage = Stage()
+        self._folder, self._pace, self._patience = folder, pace, patience
+        self._link: Link | None = None
         self._working: set[asyncio.Task[None]] = set()
-        self._heard = time.monotonic()
+        self._meetings: dict[asyncio.Task[None], asyncio.StreamWriter] = {}
         self._over = asyncio.Event()
-        self._told: tuple[m.State | None, float] = (None, 0.0)
+
+    def end(self) -> None:
+        """The world is to end."""
+        self._over.set()
 
     async def serve(self) -> None:
-        """Until somebody ends it; its files go with it."""
-        loop = asyncio.get_running_loop()
-        for number in (signal.SIGTERM, signal.SIGINT):
-            loop.add_signal_handler(number, self._over.set)
-        socket, card = socket_in(self._folder), self._folder / CARD
-        socket.unlink(missing_ok=True)
-        server = await asyncio.start_unix_server(self._meet, socket)
-        socket.chmod(0o600)
-        self._write_card(card, socket)
-        ticking = asyncio.create_task(self._tick())
-        try:
-            await self._over.wait()
-        finally:
-            ticking.cancel()
-            server.close()
-            socket.unlink(missing_ok=True)
-            card.unlink(missing_ok=True)
+        """Until somebody ends it; its files go with it.
 
-    def _write_card(self, card: Path, socket: Path) -> None:
-        pace = self._pace
-        body = {
-            "pid": os.getpid(),
-            "socket": str(socket),
-            "version": m.VERSION,
-            "pace": pace.rate,
-            "start": pace.start,
-            "origin": pace.origin,
-        }
-        fresh = card.with_suffix(".new")
-        fresh.write_text(json.dumps(body), encoding="utf-8")
-        fresh.replace(card)
+        Raises:
+            DeviceError: another world runs beside this folder.
+        """
+        socket = socket_in(self._folder)
+        with alone(self._folder):
+            socket.unlink(missing_ok=True)
+            server = await asyncio.start_unix_server(self._comes, socket)
+            try:
+                socket.chmod(0o600)
+                with card(self._folder, socket, self._pace):
+                    await self._until_over()
+            finally:
+                server.close()
+                socket.unlink(missing_ok=True)
+                await self._hang_up()
+
+    async def _until_over(self) -> None:
+        ticking = asyncio.create_task(self._tick())
+        over = asyncio.create_task(self._over.wait())
+        await asyncio.wait((ticking, over), return_when=asyncio.FIRST_COMPLETED)
+        if ticking.done():
+            ticking.result()  # a world that does not go on is none
+        for task in (ticking, over):
+            task.cancel()
+
+    async def _hang_up(self) -> None:
+        """Whoever is connected hears that the world has ended."""
+        for writer in self._meetings.values():
+            writer.close()
+        if self._meetings:
+            await asyncio.wait(tuple(self._meetings))
 
     async def _tick(self) -> None:
         """The world goes on whether or not somebody works in it."""
+        rate, last = self._pace.rate, time.monotonic()
         while True:
-            await asyncio.sleep(TICK * self._pace.rate)
-            self._stage.advance()
-            if self._controller is None:
-                continue
+            await asyncio.sleep(rate * min(max(SENSED / rate, OFTEN), SELDOM))
             now = time.monotonic()
-            if now - self._heard > HUNG:
-                self._stage.halt(SILENT)
-            state, (told, at) = self._stage.state(), self._told
-            if state is not None and (_differs(state, told) or now - at > REST):
-                self._told = (state, now)
-                self._say(m.Reply(0, state=state))
+            self._go_on(min(now - last, HEARD))
+            last = now
 
-    def _say(self, reply: m.Reply) -> None:
-        if self._controller is not None:
-            self._controller[1].write(encoded(reply))
+    def _go_on(self, listened: float) -> None:
+        state, trouble = self.stage.sensed()
+        link = self._link
+        if link is None:
+            return
+        link.silence += listened
+        if link.silence > self._patience:
+            self.stage.halt(SILENT)
+        link.tell(state, trouble)
+
+    def _comes(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        task = asyncio.create_task(self._meet(reader, writer))
+        self._meetings[task] = writer
+        task.add_done_callback(self._meetings.pop)
 
     async def _meet(self, reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
         decoder = msgspec.msgpack.Decoder(m.Request)
@@ -138,8 +139,8 @@ class WorldServer:
             return f"{type(hello).__name__} came first; expected Hello"
         if hello.version != m.VERSION:
             return f"the controller speaks version {hello.version}; expected {m.VERSION}"
-        if self._controller is not None:
-            return f"another controller commands this world, process {self._controller[0]}"
+        if self._link is not None:
+            return f"another controller commands this world, process {self._link.pid}"
         return None
 
     async def _work_for(
@@ -150,48 +151,41 @@ class WorldServer:
         decoder: "msgspec.msgpack.Decoder[m.Request]",
     ) -> None:
         pid = first.call.pid if isinstance(first.call, m.Hello) else 0
-        self._controller = (pid, writer)
-        self._heard = time.monotonic()
-        pace = self._pace
-        welcome = m.Welcome(pace.rate, pace.start, pace.origin, self._stage.built)
-        value = msgspec.msgpack.encode(welcome)
-        self._say(m.Reply(first.number, value, state=self._stage.state()))
+        link = self._link = Link(pid, writer)
+        pace, (state, _) = self._pace, self.stage.sensed()
+        welcome = m.Welcome(
+            pace.rate, pace.start, pace.origin, self.stage.built, lag_of_this_loop()
+        )
+        link.say(m.Reply(first.number, msgspec.msgpack.encode(welcome), state=state))
         try:
             while not self._over.is_set():
                 request = await received(reader, decoder)
-                self._heard = time.monotonic()
-                self._take(request)
+                link.silence = 0.0
+                self._take(link, request)
         finally:
             self._let_go()
 
-    def _take(self, request: m.Request) -> None:
+    def _take(self, link: Link, request: m.Request) -> None:
         match request.call:
             case m.Beat():
                 return
             case m.Halt(reason):
-                self._stage.halt(reason)
+                self.stage.halt(reason)
             case m.Shutdown():
-                self._over.set()
-            case _:
-                task = asyncio.get_running_loop().create_task(self._reply(request))
+                self.end()
+            case call:
+                # Taken on at once: a halt that comes right behind a motion is for it.
+                doing = self.stage.takes_on(call)
+                task = asyncio.create_task(self._reply(link, request.number, doing))
                 self._working.add(task)
                 task.add_done_callback(self._working.discard)
 
-    async def _reply(self, request: m.Request) -> None:
-        reply = await done(self._stage, request)
+    async def _reply(self, link: Link, number: int, doing: Awaitable[object]) -> None:
+        """To the controller that has called; if it has gone by then, to nobody."""
         with suppress(DepalError, ConnectionError):
-            self._say(reply)
+            link.say(await done(self.stage, number, doing))
 
     def _let_go(self) -> None:
         """The arm comes to rest where it is; what people do, and the valves, are not touched."""
-        self._controller = None
-        self._stage.halt(SILENT)
-
-
-def _differs(state: m.State, told: m.State | None) -> bool:
-    """Whether anything but the time has changed."""
-    return told is None or any(
-        getattr(state, name) != getattr(told, name)
-        for name in state.__struct_fields__
-        if name != "at"
-    )
+        self._link = None
+        self.stage.halt(SILENT)

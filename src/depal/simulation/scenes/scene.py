@@ -18,8 +18,8 @@ from depal.simulation.imaging.wear import WEAR, Wear
 from depal.simulation.scenes.foreign import with_foreign
 from depal.simulation.scenes.piles import Kind, loosened, unloaded
 from depal.simulation.scenes.truth import TrueBox, Truth, relations_of, seen_faces
+from depal.simulation.snapshot import Snapshot
 from depal.simulation.stacking import stacked
-from depal.simulation.world import Snapshot
 
 TURNS = {Severity.EASY: 0.0, Severity.NORMAL: math.radians(0.7), Severity.HARD: math.radians(1.5)}
 """How far boxes of a stack are turned in their places, as a standard deviation [rad]."""

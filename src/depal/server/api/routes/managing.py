@@ -1,11 +1,10 @@
 """Signing in, people, tokens, audit, runs, health."""
 
-from typing import Annotated, Any
+from typing import Annotated
 
-from fastapi import APIRouter, Path, Query, Request
+from fastapi import APIRouter, Header, Path, Query, Request
 from starlette.responses import Response
 
-from depal import __version__
 from depal.server.api.bodies import (
     FirstAccount,
     NewPassword,
@@ -14,9 +13,9 @@ from depal.server.api.bodies import (
     NewToken,
     SignIn,
 )
-from depal.server.api.encoding import said, serves, who_asks
+from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.routes.documented import answers
+from depal.server.api.routes.documented import answers, leads
 from depal.server.people import AuditLine, PersonView, TokenView
 from depal.server.people.sessions import LONGEST
 from depal.server.records import RunView
@@ -27,6 +26,12 @@ from depal.server.usecases import managing as cases
 NAME = Annotated[str, Path(min_length=1, max_length=100)]
 
 LIMIT = Annotated[int, Query(ge=1, le=500)]
+
+PERSON = {"change_person": "name", "set_password": "name", "remove_person": "name"}
+
+TOKEN = {"revoke_token": "token"}
+
+MATCH = Annotated[str | None, Header(description="the ETag of what is changed, or *")]
 
 AFTER = Annotated[int, Query(ge=0, le=2**62)]
 
@@ -60,24 +65,24 @@ def _address(request: Request) -> str:
 
 
 def _signing(router: APIRouter, site: Site, exposure: Exposure) -> None:
-    @router.get("/health", response_model=dict[str, Any], operation_id="health")
-    def health() -> Response:
+    @router.get("/health", response_model=cases.Health, operation_id="health")
+    @serves(cases.see_health)
+    def health(request: Request) -> Response:
         """Whether the server answers, and which version it is."""
-        return said({"status": "ok", "version": __version__})
+        return said(cases.see_health(site, who_asks(request)))
 
     @router.post(
         "/first-account",
         response_model=Principal,
-        responses=answers(),
+        responses=answers(429),
         operation_id="make_first_account",
     )
     @serves(cases.make_first_account)
     def make_first_account(request: Request, body: FirstAccount) -> Response:
         """Make the first account with the one-time code of the first start."""
-        who = who_asks(request)
-        return cookied(
-            cases.make_first_account(site, who, body.code, body.name, body.password), exposure
-        )
+        who, address = who_asks(request), _address(request)
+        signed = cases.make_first_account(site, who, body.code, body.name, body.password, address)
+        return cookied(signed, exposure)
 
     @router.post(
         "/sign-in", response_model=Principal, responses=answers(429), operation_id="sign_in"
@@ -117,25 +122,31 @@ def _people(router: APIRouter, site: Site) -> None:
         "/people",
         response_model=PersonView,
         status_code=201,
-        responses=answers(),
+        responses=answers() | leads(201, "/name", **PERSON),
         operation_id="add_person",
     )
     @serves(cases.add_person)
     def add_person(request: Request, body: NewPerson) -> Response:
         """Add a person."""
         who = who_asks(request)
-        return said(cases.add_person(site, who, body.name, body.role, body.password), 201)
+        person = cases.add_person(site, who, body.name, body.role, body.password)
+        return said(person, 201, version=person.version)
 
     @router.put(
         "/people/{name}/role",
         response_model=PersonView,
-        responses=answers(404),
+        responses=answers(404, 412, 428),
         operation_id="change_person",
     )
     @serves(cases.change_person)
-    def change_person(request: Request, name: NAME, body: NewRole) -> Response:
+    def change_person(
+        request: Request, name: NAME, body: NewRole, if_match: MATCH = None
+    ) -> Response:
         """Give a person another role."""
-        return said(cases.change_person(site, who_asks(request), name, body.role))
+        del if_match
+        version = version_in(request)
+        person = cases.change_person(site, who_asks(request), name, body.role, version)
+        return said(person, version=person.version)
 
     @router.put(
         "/people/{name}/password",
@@ -150,12 +161,16 @@ def _people(router: APIRouter, site: Site) -> None:
         return said(None, 204)
 
     @router.delete(
-        "/people/{name}", status_code=204, responses=answers(404), operation_id="remove_person"
+        "/people/{name}",
+        status_code=204,
+        responses=answers(404, 412, 428),
+        operation_id="remove_person",
     )
     @serves(cases.remove_person)
-    def remove_person(request: Request, name: NAME) -> Response:
+    def remove_person(request: Request, name: NAME, if_match: MATCH = None) -> Response:
         """Remove a person."""
-        cases.remove_person(site, who_asks(request), name)
+        del if_match
+        cases.remove_person(site, who_asks(request), name, version_in(request))
         return said(None, 204)
 
 
@@ -172,7 +187,7 @@ def _tokens(router: APIRouter, site: Site) -> None:
         "/tokens",
         response_model=cases.NewToken,
         status_code=201,
-        responses=answers(),
+        responses=answers() | leads(201, "/token/id", **TOKEN),
         operation_id="add_token",
     )
     @serves(cases.add_token)
@@ -215,7 +230,10 @@ def _audit(router: APIRouter, site: Site) -> None:
 
 def _runs(router: APIRouter, site: Site) -> None:
     @router.get(
-        "/runs", response_model=list[RunView], responses=answers(), operation_id="list_runs"
+        "/runs",
+        response_model=list[RunView],
+        responses=answers() | leads(200, "/0/number", get_run="number"),
+        operation_id="list_runs",
     )
     @serves(cases.list_runs)
     def list_runs(

@@ -8,16 +8,22 @@ from starlette.responses import Response
 
 from depal.errors import Problem
 from depal.server.api.bodies import Assignment, NewProduct, Position
+from depal.server.api.contents import gives, uploads
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.gate import uploads
-from depal.server.api.routes.documented import answers
+from depal.server.api.routes.documented import answers, leads
 from depal.server.problems import Unusable
 from depal.server.records import PictureView, QueuedView
+from depal.server.records.products import NEW
 from depal.server.site import Site
 from depal.server.usecases import deliveries as cases
 
 NAME = Annotated[str, Path(min_length=1, max_length=100)]
+
+FILE = Annotated[
+    str,
+    Query(min_length=1, max_length=90, description="the name of a delivery that comes as CSV"),
+]
 
 UPLOAD = {
     "requestBody": {
@@ -39,6 +45,18 @@ PICTURE = {
     }
 }
 
+DELIVERY = {"get_delivery": "name", "move_delivery": "name", "cancel_delivery": "name"}
+
+PRODUCT = {
+    "get_product": "gtin",
+    "put_product": "gtin",
+    "assign_product": "gtin",
+    "put_picture": "gtin",
+    "get_picture": "gtin",
+}
+
+MATCH = Annotated[str | None, Header(description="the ETag of what is changed, or *")]
+
 FACE = Annotated[str, Path(pattern="^(front|back|left|right|top|bottom)$")]
 
 
@@ -52,15 +70,15 @@ def store(router: APIRouter, site: Site, exposure: Exposure) -> None:
     _stock(router, site)
 
 
-async def _text(request: Request) -> tuple[str, str]:
-    """An uploaded file and a name for it."""
+async def _text(request: Request, name: str) -> tuple[str, str]:
+    """An uploaded file and its name: a note as CSV has no other one."""
     kind = request.headers.get("content-type", "")
     body = await request.body()
     try:
         text = body.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise Unusable("the file is no text", [Problem("body", str(error), "UTF-8")]) from error
-    return text, "upload.csv" if kind.startswith("text/csv") else "upload.json"
+    return text, f"{name}.csv" if kind.startswith("text/csv") else f"{name}.json"
 
 
 def _deliveries(router: APIRouter, site: Site) -> None:
@@ -68,17 +86,17 @@ def _deliveries(router: APIRouter, site: Site) -> None:
         "/deliveries",
         response_model=list[QueuedView],
         status_code=201,
-        responses=answers(),
+        responses=answers() | leads(201, "/0/id", **DELIVERY),
         operation_id="add_deliveries",
         openapi_extra=UPLOAD,
     )
     @serves(cases.add_deliveries)
-    @uploads
-    async def add_deliveries(request: Request) -> Response:
+    @uploads("application/json", "text/csv")
+    async def add_deliveries(request: Request, name: FILE = "upload") -> Response:
         """Check an uploaded file of deliveries and add them to the end of the queue."""
-        text, name = await _text(request)
+        text, file = await _text(request, name)
         who = who_asks(request)
-        return said(await run_in_threadpool(cases.add_deliveries, site, who, text, name), 201)
+        return said(await run_in_threadpool(cases.add_deliveries, site, who, text, file), 201)
 
     @router.post(
         "/deliveries/check",
@@ -88,28 +106,32 @@ def _deliveries(router: APIRouter, site: Site) -> None:
         openapi_extra=UPLOAD,
     )
     @serves(cases.check_deliveries)
-    @uploads
-    async def check_deliveries(request: Request) -> Response:
+    @uploads("application/json", "text/csv")
+    async def check_deliveries(request: Request, name: FILE = "upload") -> Response:
         """Check a file of deliveries without adding it."""
-        text, name = await _text(request)
+        text, file = await _text(request, name)
         who = who_asks(request)
-        return said(await run_in_threadpool(cases.check_deliveries, site, who, text, name))
+        return said(await run_in_threadpool(cases.check_deliveries, site, who, text, file))
 
     @router.get(
         "/deliveries",
         response_model=list[QueuedView],
-        responses=answers(),
+        responses=answers(404) | leads(200, "/0/id", **DELIVERY),
         operation_id="list_deliveries",
     )
     @serves(cases.list_deliveries)
-    def list_deliveries(request: Request) -> Response:
-        """The queue of deliveries, and those that are done."""
-        return said(cases.list_deliveries(site, who_asks(request)))
+    def list_deliveries(
+        request: Request,
+        after: Annotated[str | None, Query(max_length=100)] = None,
+        limit: Annotated[int, Query(ge=1, le=500)] = 100,
+    ) -> Response:
+        """The queue of deliveries, then those that are done, the newest first."""
+        return said(cases.list_deliveries(site, who_asks(request), after, limit))
 
 
 def _queue(router: APIRouter, site: Site) -> None:
     @router.get(
-        "/deliveries/{name}",
+        "/deliveries/{name:path}",
         response_model=QueuedView,
         responses=answers(404),
         operation_id="get_delivery",
@@ -121,7 +143,7 @@ def _queue(router: APIRouter, site: Site) -> None:
         return said(view, version=view.version)
 
     @router.delete(
-        "/deliveries/{name}",
+        "/deliveries/{name:path}",
         response_model=QueuedView,
         responses=answers(404, 412, 428),
         operation_id="cancel_delivery",
@@ -136,7 +158,7 @@ def _queue(router: APIRouter, site: Site) -> None:
         return said(view, version=view.version)
 
     @router.put(
-        "/deliveries/{name}/position",
+        "/deliveries/{name:path}/position",
         response_model=QueuedView,
         responses=answers(404, 412, 428),
         operation_id="move_delivery",
@@ -159,7 +181,7 @@ def _products(router: APIRouter, site: Site) -> None:
     @router.get(
         "/products",
         response_model=list[cases.ProductView],
-        responses=answers(),
+        responses=answers() | leads(200, "/0/gtin", **PRODUCT),
         operation_id="list_products",
     )
     @serves(cases.list_products)
@@ -181,30 +203,42 @@ def _products(router: APIRouter, site: Site) -> None:
     @serves(cases.get_product)
     def get_product(request: Request, gtin: NAME) -> Response:
         """A product with its places and pictures."""
-        return said(cases.get_product(site, who_asks(request), gtin))
+        view = cases.get_product(site, who_asks(request), gtin)
+        return said(view, version=view.version)
 
     @router.put(
         "/products/{gtin}",
         response_model=cases.ProductView,
-        responses=answers(),
+        responses=answers(404, 412, 428) | leads(200, "/gtin", **PRODUCT),
         operation_id="put_product",
     )
     @serves(cases.put_product)
-    def put_product(request: Request, gtin: NAME, body: NewProduct) -> Response:
-        """Add a product, or change what is known of it."""
+    def put_product(
+        request: Request, gtin: NAME, body: NewProduct, if_match: MATCH = None
+    ) -> Response:
+        """Add a product, or change what is known of it: then with If-Match."""
         who = who_asks(request)
-        return said(cases.put_product(site, who, gtin, body.name, body.size, body.mass))
+        version = NEW if if_match is None else version_in(request)
+        if version is None:
+            version = cases.get_product(site, who, gtin).version
+        view = cases.put_product(site, who, gtin, body.name, body.size, body.mass, version)
+        return said(view, version=view.version)
 
     @router.put(
         "/products/{gtin}/places",
         response_model=cases.ProductView,
-        responses=answers(404),
+        responses=answers(404, 412, 428),
         operation_id="assign_product",
     )
     @serves(cases.assign_product)
-    def assign_product(request: Request, gtin: NAME, body: Assignment) -> Response:
+    def assign_product(
+        request: Request, gtin: NAME, body: Assignment, if_match: MATCH = None
+    ) -> Response:
         """Say where a product belongs, best first."""
-        return said(cases.assign_product(site, who_asks(request), gtin, tuple(body.places)))
+        del if_match
+        version, places = version_in(request), tuple(body.places)
+        view = cases.assign_product(site, who_asks(request), gtin, places, version)
+        return said(view, version=view.version)
 
 
 def _pictures(router: APIRouter, site: Site) -> None:
@@ -216,7 +250,7 @@ def _pictures(router: APIRouter, site: Site) -> None:
         openapi_extra=PICTURE,
     )
     @serves(cases.put_picture)
-    @uploads
+    @uploads("image/png", "image/jpeg")
     async def put_picture(request: Request, gtin: NAME, face: FACE) -> Response:
         """Upload a picture of a product's face, PNG or JPEG."""
         body = await request.body()
@@ -230,6 +264,7 @@ def _pictures(router: APIRouter, site: Site) -> None:
         operation_id="get_picture",
     )
     @serves(cases.get_picture)
+    @gives("image/png", "image/jpeg")
     def get_picture(request: Request, gtin: NAME, face: FACE) -> Response:
         """A picture of a product's face."""
         view, body = cases.get_picture(site, who_asks(request), gtin, face)

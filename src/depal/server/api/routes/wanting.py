@@ -9,7 +9,7 @@ from starlette.responses import Response
 from depal.server.api.bodies import ChangedRequest, Choice, NewRequest
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
-from depal.server.api.routes.documented import answers
+from depal.server.api.routes.documented import answers, leads
 from depal.server.records import QuestionView, RequestView
 from depal.server.site import Site
 from depal.server.usecases import wanting as cases
@@ -27,10 +27,8 @@ def wanting(router: APIRouter, site: Site, exposure: Exposure) -> None:
     _questions(router, site)
 
 
-def _due(site: Site, due: datetime | None, due_in: float | None) -> float | None:
+def _epoch(due: datetime | None) -> float | None:
     """Seconds since 1970."""
-    if due_in is not None:
-        return site.chance.now() + due_in
     return None if due is None else due.timestamp()
 
 
@@ -39,7 +37,8 @@ def _requests(router: APIRouter, site: Site) -> None:
         "/requests",
         response_model=RequestView,
         status_code=201,
-        responses=answers(404),
+        responses=answers(404)
+        | leads(201, "/key", get_request="key", change_request="key", cancel_request="key"),
         operation_id="add_request",
     )
     @serves(cases.add_request)
@@ -55,7 +54,8 @@ def _requests(router: APIRouter, site: Site) -> None:
             gtin=body.gtin,
             box=body.box,
             priority=body.priority,
-            due=_due(site, body.due, body.due_in),
+            due=_epoch(body.due),
+            due_in=body.due_in,
             repeat=idempotency_key,
         )
         return said(view, 201, version=view.version)
@@ -63,7 +63,8 @@ def _requests(router: APIRouter, site: Site) -> None:
     @router.get(
         "/requests",
         response_model=list[RequestView],
-        responses=answers(),
+        responses=answers()
+        | leads(200, "/0/key", get_request="key", change_request="key", cancel_request="key"),
         operation_id="list_requests",
     )
     @serves(cases.list_requests)
@@ -73,7 +74,7 @@ def _requests(router: APIRouter, site: Site) -> None:
         after: Annotated[int, Query(ge=0, le=2**62)] = 0,
         limit: LIMIT = 100,
     ) -> Response:
-        """The requests in the order in which they came."""
+        """The requests in the order in which they came; `after` is the last one's number."""
         return said(cases.list_requests(site, who_asks(request), state, after, limit))
 
     @router.get(
@@ -105,17 +106,15 @@ def _changes(router: APIRouter, site: Site) -> None:
     ) -> Response:
         """Change the priority or the due time of a request."""
         del if_match
-        version = version_in(request)
-        who = who_asks(request)
-        if version is None:
-            version = cases.get_request(site, who, key).version
         view = cases.change_request(
             site,
-            who,
+            who_asks(request),
             key,
-            version=version,
+            version=version_in(request),
             priority=body.priority,
-            due=_due(site, body.due, body.due_in),
+            due=_epoch(body.due),
+            due_in=body.due_in,
+            keep_due=body.keeps_due,
         )
         return said(view, version=view.version)
 
@@ -139,16 +138,23 @@ def _questions(router: APIRouter, site: Site) -> None:
     @router.get(
         "/questions",
         response_model=list[QuestionView],
-        responses=answers(),
+        responses=answers(404) | leads(200, "/0/id", get_question="name", answer_question="name"),
         operation_id="list_questions",
     )
     @serves(cases.list_questions)
     def list_questions(
-        request: Request, *, open_only: bool = False, limit: LIMIT = 100
+        request: Request,
+        *,
+        open_only: bool = False,
+        limit: LIMIT = 100,
+        before: Annotated[str | None, Query(max_length=200)] = None,
     ) -> Response:
         """Questions of the cell to a person, the newest first."""
-        found = cases.list_questions(site, who_asks(request), open_only=open_only, limit=limit)
-        return said(found)
+        return said(
+            cases.list_questions(
+                site, who_asks(request), open_only=open_only, limit=limit, before=before
+            )
+        )
 
     @router.get(
         "/questions/{name:path}",

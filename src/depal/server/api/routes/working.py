@@ -1,34 +1,19 @@
-"""The cell: state, trees, why, picture, journal, commands, settings."""
+"""The cell: state, trees, why, picture, commands, settings."""
 
-import asyncio
-import time
-from collections.abc import AsyncIterator
-from typing import Annotated, Any
+from typing import Annotated
 
-import msgspec
-from fastapi import APIRouter, Header, Path, Query, Request
-from starlette.concurrency import run_in_threadpool
-from starlette.responses import Response, StreamingResponse
+from fastapi import APIRouter, Header, Path, Request
+from starlette.responses import Response
 
 from depal.server.api.bodies import NewSettings, Start
+from depal.server.api.contents import gives
 from depal.server.api.encoding import said, serves, version_in, who_asks
 from depal.server.api.exposure import Exposure
 from depal.server.api.routes.documented import answers
 from depal.server.cellstate import CellState, TaskTree
-from depal.server.events import Event
 from depal.server.records import Kept
-from depal.server.roles import Principal
 from depal.server.site import Site
 from depal.server.usecases import working as cases
-
-LOOKING = 0.03
-"""New events are looked for so often [s]."""
-
-BEATS = 10.0
-"""A stream that has nothing to tell says so after so long [s]."""
-
-LONGEST = 3600.0
-"""A stream ends after so long; browsers come back by themselves [s]."""
 
 NAME = Annotated[str, Path(min_length=1, max_length=100)]
 
@@ -39,7 +24,6 @@ def working(router: APIRouter, site: Site, exposure: Exposure) -> None:
     _reading(router, site)
     _commands(router, site)
     _settings(router, site)
-    _journal(router, site)
 
 
 def _reading(router: APIRouter, site: Site) -> None:
@@ -75,6 +59,7 @@ def _reading(router: APIRouter, site: Site) -> None:
         operation_id="see_picture",
     )
     @serves(cases.see_picture)
+    @gives("image/jpeg")
     def see_picture(request: Request) -> Response:
         """The last camera picture with what was seen in it."""
         picture = cases.see_picture(site, who_asks(request))
@@ -145,60 +130,3 @@ def _settings(router: APIRouter, site: Site) -> None:
         version = version_in(request)
         kept = cases.change_settings(site, who_asks(request), **body.model_dump(), version=version)
         return said(kept, version=kept.version)
-
-
-def _journal(router: APIRouter, site: Site) -> None:
-    @router.get(
-        "/journal", response_model=list[Event], responses=answers(), operation_id="read_events"
-    )
-    @serves(cases.read_events)
-    def read_events(
-        request: Request,
-        after: Annotated[int, Query(ge=0, le=2**62)] = 0,
-        limit: Annotated[int, Query(ge=1, le=500)] = 100,
-    ) -> Response:
-        """The events of the journal after a number."""
-        return said(cases.read_events(site, who_asks(request), after, limit))
-
-    @router.get("/events", include_in_schema=False)
-    @serves(cases.read_events)
-    async def stream(
-        request: Request,
-        last_event_id: Annotated[str | None, Header()] = None,
-        wait: Annotated[float, Query(ge=0.0, le=LONGEST)] = LONGEST,
-    ) -> Response:
-        """The journal as server-sent events, from Last-Event-ID on or from now."""
-        who = who_asks(request)
-        known = await run_in_threadpool(cases.last_event, site, who)
-        if last_event_id is not None and last_event_id.isascii() and last_event_id.isdigit():
-            known = int(last_event_id[:19])
-        told = _told(site, who, known, wait)
-        headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no"}
-        return StreamingResponse(told, media_type="text/event-stream", headers=headers)
-
-
-async def _told(site: Site, who: Principal | None, after: int, wait: float) -> AsyncIterator[bytes]:
-    """Events as they come; who reads too slowly is not waited for: the server holds none back."""
-    until, spoken = time.monotonic() + wait, time.monotonic()
-    yield b"retry: 1000\n\n"
-    while True:
-        newest = site.events.last
-        if newest > after:
-            for event in await run_in_threadpool(cases.read_events, site, who, after, 100):
-                after = event.sequence
-                yield _line(event)
-            spoken = time.monotonic()
-            continue
-        now = time.monotonic()
-        if now >= until:
-            return
-        if now - spoken > BEATS:
-            spoken = now
-            yield b": still here\n\n"
-        await asyncio.sleep(LOOKING)
-
-
-def _line(event: Event) -> bytes:
-    body: Any = msgspec.json.encode(event)
-    head = f"id: {event.sequence}\nevent: {event.kind}\ndata: ".encode()
-    return head + bytes(body) + b"\n\n"
