@@ -10,7 +10,8 @@
     │   ├── SettingError    a number or a name outside its range
     │   ├── CellError       a cell file, or a cell that cannot do its work
     │   ├── FrameError      a recorded frame, or a calibration, that cannot be used
-    │   └── OrderError      a recorded order of unloading that cannot be used
+    │   ├── OrderError      a recorded order of unloading that cannot be used
+    │   └── FaultError      a file of faults that cannot be used
     ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
     └── MissingPartError    an optional part that is not installed
@@ -28,6 +29,7 @@ __all__ = [
     "DeliveryError",
     "DepalError",
     "DeviceError",
+    "FaultError",
     "FrameError",
     "InputError",
     "JournalError",
@@ -141,6 +143,10 @@ class FrameError(InputError):
 
 class OrderError(InputError):
     """A recorded order of unloading that cannot be used."""
+
+
+class FaultError(InputError):
+    """A file of faults that cannot be used."""
 
 
 class DeviceError(DepalError):

@@ -1,5 +1,6 @@
 """Runs in physics that take a second: a few cases on the default cell's pallet."""
 
+from dataclasses import replace
 from pathlib import Path
 
 from depal.app.run.job import run_job
@@ -17,6 +18,7 @@ from depal.domain import (
     StackedCase,
 )
 from depal.geometry import Vector3
+from depal.simulation.faults import FaultPlan
 from depal.simulation.truth_sight import SightSettings
 
 Case = tuple[Vector3, Vector3, float]
@@ -48,7 +50,7 @@ def tiny(*cases: Case) -> Delivery:
     return Delivery("tiny", EURO_PALLET, tuple(lines), tuple(stack))
 
 
-def run(
+def run(  # noqa: PLR0913 - a run has many sides
     cases: tuple[Case, ...],
     *requests: Request,
     seed: int = 0,
@@ -57,11 +59,12 @@ def run(
     w: float = 0.5,
     policy: Policy = Policy.PAPER,
     guard: bool = False,
+    faults: FaultPlan | None = None,
     record: Path | None = None,
 ) -> Outcome:
     """Empties a pallet of these cases."""
     layout = shipped_cell("default")
-    job = Job(
-        layout, tiny(*cases), requests, Settings(w=w, policy=policy, guard=guard), seed, sight, cone
-    )
+    settings = Settings(w=w, policy=policy, guard=guard)
+    job = Job(layout, tiny(*cases), requests, settings, seed, sight, cone)
+    job = replace(job, faults=faults or FaultPlan())
     return run_job(job, record=record)

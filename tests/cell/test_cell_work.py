@@ -302,7 +302,8 @@ def test_a_vacuum_that_breaks_while_the_arm_stands_is_noticed() -> None:
     def answer(question: Question) -> str:
         return gtin(1) if question.id == "product/b1" else question.choices[0]
 
-    cell = Cell(1, unknown=(1,), gripper=FakeGripper({0: 10.0}), person=FakePerson(answer)).works()
+    gripper, reader = FakeGripper({0: 10.0}), FakeReader([("x",), ("y",)])
+    cell = Cell(1, unknown=(1,), gripper=gripper, reader=reader, person=FakePerson(answer)).works()
     cell.assert_whole()
     assert cell.fates == {"b1": LOST}
 
@@ -459,7 +460,8 @@ def test_the_hash_seed_of_python_decides_nothing() -> None:
 def test_every_wait_is_on_the_loops_time() -> None:
     """A person who takes a day costs no time of the machine, and the times of events rise."""
     person = FakePerson(lambda question: question.choices[-1], delay=250.0)
-    cell = Cell(1, unknown=(1,), person=person).works()
+    reader = FakeReader([("x",), ("y",)])
+    cell = Cell(1, unknown=(1,), reader=reader, person=person).works()
     times = [event.at for event in cell.events]
     assert times == sorted(times)
     assert cell.ended > 250.0

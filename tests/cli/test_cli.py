@@ -152,7 +152,7 @@ def test_everything_wrong_with_a_delivery_is_said_at_once(depal: Run, tmp_path: 
         (("study", "unload", "--deliveries", "dev-00"), "did you mean"),
         (("delivery", "check", "nowhere.json"), "nowhere.json"),
         (("schema", "delivry"), "did you mean 'delivery'?"),
-        (("schema",), "there is: cell, delivery, orders, requests"),
+        (("schema",), "there is: cell, delivery, faults, orders, requests"),
     ],
 )
 def test_bad_input_is_one_error_that_teaches(

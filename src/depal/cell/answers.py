@@ -114,18 +114,19 @@ class Answers:
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
         work, runtime = self._work, self._work.runtime
         taken = runtime.engine.state.facts.get(f"{box}.taken")
-        if taken and schema == STORE:
+        aside = schema == STORE and bool(taken or box in work.homeless)
+        if aside:
             # First of all its successor: the arm goes from the one to the other.
             work.aside_reasons[box] = fault
             runtime.allocate(Call(ASIDE, (box,), FIRST))
         runtime.withdraw(number, fault)
         runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
+        if aside:
+            return
         if not taken:
             self._promises.forget_pick(box)
             work.left_behind[box] = fault
             work.gone(box).set()
-        elif schema == STORE:
-            return
         else:
             task = asyncio.get_running_loop().create_task(self._hand_over(box, fault))
             self._handing.add(task)

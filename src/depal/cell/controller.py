@@ -15,6 +15,9 @@ from depal.executive.journal import Journal
 from depal.executive.runtime import Runtime
 from depal.executive.schema import Repository
 
+PATIENCE = 600.0
+"""A run that is over waits so long for the store's system to have been told of it [s]."""
+
 
 class Controller:
     """One cell at work."""
@@ -73,6 +76,7 @@ class Controller:
     async def finish(self) -> None:
         """Waits until the pallet is empty and everything that was begun has ended."""
         await self._ended.wait()
+        await self.work.outbox.emptied(PATIENCE)
         await self.runtime.close()
 
     def _heard(self, last: int, events: Sequence[ev.Event]) -> None:

@@ -173,7 +173,7 @@ class Recovery:
             if departure.fate is Fate.STORED and place and not facts.get(f"{box}.stored"):
                 name = movement_id(box, place)
                 moved = Movement(name, box, departure.gtin, place, work.now)
-                await work.ports.store.moved(moved)
+                await work.outbox.tell(moved)
                 work.tell([(f"{box}.taken", False), (f"{box}.stored", True)], "restart")
             elif departure.fate is Fate.SET_ASIDE and not facts.get(f"{box}.at"):
                 work.tell([(f"{box}.taken", False), (f"{box}.at", "aside")], "restart")

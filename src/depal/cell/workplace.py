@@ -11,6 +11,8 @@ from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.feedback import Feedback
 from depal.cell.gate import Gate
 from depal.cell.hand import Hand, Phase
+from depal.cell.modules import Modules
+from depal.cell.outbox import Outbox
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
 from depal.cell.wishes import Wishes
@@ -167,6 +169,7 @@ class Workplace:
         questions: to the supervising person.
         impossible: products that the arm cannot handle, and why.
         pile: what stands on the pallet.
+        outbox: what the store's system is to be told.
         wishes: what is wanted.
         departures: what became of the boxes.
         runtime: the executive; set once it is bound.
@@ -176,7 +179,9 @@ class Workplace:
         doubted: boxes that were not as they looked: they are looked at before another try.
         tries: how often the gripper had no hold of a box that it was at.
         strangers: what the reader saw on boxes that are not on the note.
+        homeless: boxes for which the store's system has named no place.
         seen_to: whether a person has looked for what the note promises and no look shows.
+        modules: of the gripper, and which of them are dead.
         feedback: told what the work finds out about boxes.
         hand: the physical step that the box in the gripper is in.
         keep: writes what must not be forgotten; called before and after every such step.
@@ -191,6 +196,7 @@ class Workplace:
     questions: Questions
     impossible: Mapping[Gtin, str] = field(default_factory=dict)
     pile: Pile = field(init=False)
+    outbox: Outbox = field(init=False)
     wishes: Wishes = field(default_factory=lambda: Wishes(()))
     departures: Departures = field(default_factory=Departures)
     held: Held | None = None
@@ -199,7 +205,9 @@ class Workplace:
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
     tries: dict[BoxId, int] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
+    homeless: set[BoxId] = field(default_factory=set)
     seen_to: bool = False
+    modules: Modules = field(default_factory=Modules)
     feedback: Feedback = field(default_factory=Feedback)
     hand: Hand | None = None
     keep: Callable[[], None] = nothing_kept
@@ -211,6 +219,7 @@ class Workplace:
 
     def __post_init__(self) -> None:
         """The pile stands on the cell's pallet."""
+        self.outbox = Outbox(self.ports.store)
         self.pile = Pile(Deck.of(self.layout.pallet.cell_from_pallet))
 
     def bind(self, runtime: Runtime) -> None:

@@ -228,3 +228,28 @@ def learning(  # noqa: PLR0913, PLR0917 - a command's options
         results = recover(teacher, pallets, range(seed, seed + seeds), executor, progress)
     report = recovery_report(teacher, pallets, results, time.perf_counter() - start)
     finish(report, json_file, None)
+
+
+@beyond.command()
+def faults(
+    faults: Annotated[
+        str, typer.Option(help="Ids of faults, with commas; all where none is named.")
+    ] = "",
+    seeds: Annotated[int, typer.Option(help="So many runs of each fault.", min=1)] = 3,
+    seed: Seed = 0,
+    workers: Workers = 1,
+    dask: Dask = None,
+    json_file: JsonFile = None,
+    plot: PlotFile = None,
+) -> None:
+    """Every fault alone: how the cell ends it, and whether anything is lost on the way."""
+    from depal.app.faults import FaultsAsked, faults_report, faults_rows  # noqa: PLC0415 - fast help
+    from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    check_targets(json_file, plot)
+    asked = FaultsAsked(faults, seeds, seed)
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Faults") as progress:
+        runs = faults_rows(asked, executor, progress)
+    finish(faults_report(runs, asked, time.perf_counter() - start), json_file, plot)

@@ -84,16 +84,18 @@ def _depal(
 
 @app.command()
 def schema(
-    name: Annotated[str, typer.Argument(help="cell, delivery, orders or requests")] = "",
+    name: Annotated[str, typer.Argument(help="cell, delivery, faults, orders or requests")] = "",
 ) -> None:
     """Print the JSON Schema of a format."""
     from depal.app.learning import order_schema  # noqa: PLC0415 - fast help
     from depal.cell.files import cell_schema  # noqa: PLC0415
     from depal.logistics import delivery_schema, requests_schema  # noqa: PLC0415
+    from depal.simulation.faults import faults_schema  # noqa: PLC0415
 
     schemas = {
         "cell": cell_schema,
         "delivery": delivery_schema,
+        "faults": faults_schema,
         "orders": order_schema,
         "requests": requests_schema,
     }

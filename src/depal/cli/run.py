@@ -30,6 +30,9 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     requests: Annotated[
         str, typer.Option(help="A file of requests, or none.", show_default=False)
     ] = "",
+    faults: Annotated[
+        str, typer.Option(help="A file of faults that strike.", show_default=False)
+    ] = "",
     w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
     policy: Annotated[
         str, typer.Option(help="Which boxes may be taken: paper, or access.")
@@ -63,6 +66,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         cell=cell,
         note=note,
         requests=requests,
+        faults=faults,
         w=w,
         policy=policy,
         guard=guard,

@@ -91,14 +91,13 @@ class SimulatedPerson:
         if found is not None or question.gtin is None:
             return found
         known = set(self.witness.indices.values())
-        on_pallet = [
-            case.index
+        there = {
+            case.index: self._referee.where(case.index)
             for case in self._world.cases
-            if case.gtin == question.gtin
-            and case.index not in known
-            and self._referee.where(case.index) == PALLET
-        ]
-        return on_pallet[0] if on_pallet else None
+            if case.gtin == question.gtin and case.index not in known
+        }
+        lying = [index for index, where in there.items() if where in {FLOOR, ELSEWHERE}]
+        return next(iter([index for index in there if there[index] == PALLET] + lying), None)
 
     def _is_trolley(self, name: str) -> bool:
         storages = self._world.layout.storages
@@ -109,7 +108,7 @@ class SimulatedPerson:
         inside = f"{bay}/"
         for truth in self._referee.boxes():
             if truth.where.startswith(inside):
-                self._take_away(truth.index)
+                self.take_away(truth.index)
         self._world.show_storage(bay, trolley=None)
         await asyncio.sleep(self._exchange_time)
         self._world.advance(self._clock.now())
@@ -122,9 +121,10 @@ class SimulatedPerson:
             return
         if anywhere or self._referee.where(index) in {FLOOR, ELSEWHERE}:
             self.witness.means(BoxId(question.about), index)
-            self._take_away(index)
+            self.take_away(index)
 
-    def _take_away(self, index: int) -> None:
+    def take_away(self, index: int) -> None:
+        """Takes a box out of the cell, wherever it is."""
         x, y = PARKING
         height = self._world.cases[index].shape.size[2]
         self._world.removed.append(index)

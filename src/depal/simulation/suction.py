@@ -72,7 +72,7 @@ class SuctionState:
         self.open = {name: tuple(cup for module, cup in wanted if module == name) for name in names}
         for name in names:
             cups_here = tuple((name, cup) for cup in self.open[name])
-            good = int((self._boxes_under(cups_here) >= 0).sum())
+            good = int((self.boxes_under(cups_here) >= 0).sum())
             self._head_for(name, self._level(name, good), now, self.tool.suction.rise)
 
     def grip(self, now: float) -> bool:
@@ -83,7 +83,7 @@ class SuctionState:
             for cup in cups
             if (name, cup) not in self._held_cups() and self._valves[name].level(now) > 0.0
         ]
-        under = dict(zip(fresh, self._boxes_under(tuple(fresh)).tolist(), strict=True))
+        under = dict(zip(fresh, self.boxes_under(tuple(fresh)).tolist(), strict=True))
         for plane in self._planes():
             for box in sorted({under[cup] for cup in fresh if cup[0] in plane} - {-1}):
                 self._weld(tuple(c for c in fresh if c[0] in plane and under[c] == box), box)
@@ -100,6 +100,11 @@ class SuctionState:
         self.open = {}
         for name in self._valves:
             self._head_for(name, 0.0, now, self.tool.suction.vent)
+
+    def stick(self, box: int, to: int) -> None:
+        """A fault: a box comes along with one that the cups hold."""
+        cups = next(hold.cups for hold in self.holds if hold.box == to)
+        self._weld(cups, box)
 
     def detach(self, box: int, now: float) -> None:
         """Pulls a box off the cups; they leak from now on."""
@@ -156,7 +161,7 @@ class SuctionState:
         valve = self._valves[name]
         self._valves[name] = Valve(valve.level(now), now, level, time)
 
-    def _boxes_under(self, cups: tuple[Cup, ...]) -> npt.NDArray[np.int64]:
+    def boxes_under(self, cups: tuple[Cup, ...]) -> npt.NDArray[np.int64]:
         """The box that each cup seals on; -1 where there is none."""
         solids, suction = self.solids(), self.tool.suction
         found = np.full(len(cups), -1)

@@ -2,15 +2,17 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from depal.cell.controller import Controller
 from depal.cell.feedback import Feedback
+from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
 from depal.cell.sight import CameraSight
+from depal.cell.sight.fresh import FreshSight
 from depal.cell.timekeeping import Timekeeper, timed
 from depal.cell.workplace import Ports, Settings, Workplace
 from depal.domain import CellLayout, Delivery, Gtin
@@ -70,12 +72,15 @@ def assemble(wiring: Wiring, ports: Ports) -> Assembly:
     times = Timekeeper(ports.clock)
     sight = ports.sight
     ports = timed(ports, times)
+    halting = HaltingArm(ports.arm)
+    ports = replace(ports, arm=halting, sight=FreshSight(ports.sight, ports.clock))
     questions = Questions(ports.person, ports.clock)
     work = Workplace(
         wiring.layout, wiring.told, ports, wiring.settings, questions, wiring.impossible
     )
     planner = Planner(work, times, cone=wiring.cone, seed=wiring.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
+    halting.bind(work, desk)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
         work.feedback = Feedback(sight.learn, sight.doubt, sight.deny, sight.part)

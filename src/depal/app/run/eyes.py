@@ -99,8 +99,16 @@ class Observing:
         return self._gallery[1]
 
 
-def camera_sight(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
+def camera_sight(
+    job: Job, cell: SimulatedCell, clock: Clock, cameras: Sequence[Camera] | None = None
+) -> CameraSight:
     """The cameras of a simulated cell, calibrated, with perception and memory.
+
+    Args:
+        job: what is run.
+        cell: the simulated one.
+        clock: of the cell.
+        cameras: in the layout's order; None for the cell's own.
 
     Raises:
         FrameError: a camera cannot be calibrated.
@@ -108,7 +116,7 @@ def camera_sight(job: Job, cell: SimulatedCell, clock: Clock) -> CameraSight:
     frames = [camera.frame(clock.now()) for camera in cell.cameras]
     memory = Memory(places=job.named)
     return sight_over(
-        job.layout, job.told.lines, job.seed, cell.cameras, frames, clock, memory=memory
+        job.layout, job.told.lines, job.seed, cameras or cell.cameras, frames, clock, memory=memory
     )
 
 

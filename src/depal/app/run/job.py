@@ -31,13 +31,13 @@ from depal.cell.timekeeping import WAITING, Timekeeper
 from depal.cell.wishes import Wish
 from depal.cell.workplace import Ports, Settings, Workplace
 from depal.domain import Delivery, Gtin, Request, checked_share
-from depal.errors import MissingPartError
 from depal.executive.clock import Clock, LoopClock, run_simulated
 from depal.executive.schema import Repository
 from depal.logistics import read_delivery, read_requests
 from depal.logistics.store import LocalStore, RequestState, StockProjection, by_storage
 from depal.ports import Sight
 from depal.simulation.cell import SimulatedCell, build
+from depal.simulation.faults import FaultPlan, Injection, read_faults
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.truth_sight import SightSettings
 
@@ -46,7 +46,7 @@ DEFAULT = "dev-035"
 
 NONE = "none"
 
-Seeing = Callable[[Job, SimulatedCell, Clock], Sight]
+Seeing = Callable[[Job, SimulatedCell, Clock, Injection], Sight]
 """What the cell sees with."""
 
 
@@ -105,6 +105,7 @@ def prepared(options: Options) -> Job:
         severity,
         case2_names() if options.delivery == CASE2 else (),
         note,
+        read_faults(Path(options.faults)) if options.faults else FaultPlan(),
     )
 
 
@@ -123,9 +124,11 @@ def _delivery_and_requests(
     return delivery, note, requests
 
 
-def seeing_of(job: Job, cell: SimulatedCell, clock: Clock) -> Sight:
+def seeing_of(job: Job, cell: SimulatedCell, clock: Clock, faults: Injection) -> Sight:
     """What the job asks for."""
-    return cell.sight if job.perception == TRUTH else camera_sight(job, cell, clock)
+    if job.perception == TRUTH:
+        return faults.sight(cell.sight)
+    return camera_sight(job, cell, clock, faults.cameras)
 
 
 def run_job(
@@ -168,7 +171,8 @@ async def _run(
     )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.told], places, seed=job.seed)
-    sight = seeing(job, cell, clock)
+    injection = Injection.into(cell, job.faults, job.seed, clock)
+    sight = seeing(job, cell, clock, injection)
     wiring = Wiring(
         job.layout,
         job.told,
@@ -179,7 +183,7 @@ async def _run(
         impossible=job.impossible,
         cone=job.cone,
     )
-    wired = assemble(wiring, _ports(cell, store, sight, clock))
+    wired = assemble(wiring, _ports(cell, injection, store, sight))
     work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
@@ -191,11 +195,18 @@ async def _run(
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
-        await controller.empty_pallet(job.requests)
+        async with asyncio.timeout(job.horizon):
+            await controller.empty_pallet(job.requests)
     filming.cancel()
     film.take()
     _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
     outcome = _outcome(job, work, desk, cell, keeper, wired.times)
+    outcome = replace(
+        outcome,
+        struck=injection.struck,
+        motions=tuple(injection.arm.began),
+        most_held=injection.arm.most_held,
+    )
     return replace(outcome, scores=scores.scores), film
 
 
@@ -213,19 +224,17 @@ def _close_books(
     stock.catch_up(keeper.journal)
 
 
-def _ports(cell: SimulatedCell, store: LocalStore, sight: Sight, clock: LoopClock) -> Ports:
-    if cell.reader is None:
-        raise MissingPartError("the simulated cell has no barcode reader")
+def _ports(cell: SimulatedCell, faults: Injection, store: LocalStore, sight: Sight) -> Ports:
     return Ports(
-        arm=cell.arm,
-        gripper=cell.gripper,
-        reader=cell.reader,
-        bays=cell.bays,
+        arm=faults.arm,
+        gripper=faults.gripper,
+        reader=faults.reader,
+        bays=faults.bays,
         safety=cell.safety,
-        person=cell.person,
-        store=store,
+        person=faults.person,
+        store=faults.store(store),
         sight=sight,
-        clock=clock,
+        clock=faults.clock,
     )
 
 

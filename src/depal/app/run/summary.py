@@ -14,6 +14,7 @@ from depal.cell.questions import Asked
 from depal.cell.wishes import Wish
 from depal.cell.workplace import Difference
 from depal.domain import BoxId, Gtin
+from depal.simulation.faults import Struck
 from depal.simulation.referee import FLOOR, HAND, PALLET, REMOVED, Referee, Summary
 
 UNSEEN = "unseen"
@@ -54,6 +55,9 @@ class Outcome:
         speed: share of full speed.
         events_sha256: of the event log.
         scores: of the first selection in which a request counts.
+        struck: the faults that have struck.
+        motions: when each motion of the arm began [s].
+        most_held: how many boxes hung on the arm together.
     """
 
     delivery: str
@@ -77,6 +81,9 @@ class Outcome:
     speed: float
     events_sha256: str
     scores: Scores | None = None
+    struck: tuple[Struck, ...] = ()
+    motions: tuple[float, ...] = ()
+    most_held: int = 0
 
     @property
     def stored(self) -> int:
@@ -243,6 +250,15 @@ def _fields(outcome: Outcome, perception: str) -> dict[str, Json]:
         "scores": [
             {"box": box.name, "before": box.before, "after": box.after}
             for box in (outcome.scores.boxes if outcome.scores is not None else ())
+        ],
+        "faults": [
+            {
+                "fault": each.fault.id,
+                "at": each.at,
+                "phase": each.phase.value,
+                "box": each.box,
+            }
+            for each in outcome.struck
         ],
         "perception": perception,
         "policy": outcome.policy,

@@ -7,6 +7,7 @@ from pathlib import Path
 from depal.cell.workplace import Settings
 from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request
 from depal.geometry import Vector3
+from depal.simulation.faults import FaultPlan
 from depal.simulation.imaging.severity import Severity
 from depal.simulation.truth_sight import SightSettings
 
@@ -33,6 +34,7 @@ class Options:
         speed: share of the arm's full speed.
         record: the folder to keep a record in.
         cone: whether motions respect the suction's limits; only tests switch it off.
+        faults: a file of faults, or "" for none.
     """
 
     delivery: str = ""
@@ -48,6 +50,7 @@ class Options:
     speed: float = 1.0
     record: Path | None = None
     cone: bool = True
+    faults: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,6 +70,8 @@ class Job:
         cone: whether motions respect the suction's limits.
         impossible: products that the arm cannot handle, and why; their cases go to a person.
         note: what the cell is told instead of the delivery's own note.
+        faults: what is to strike.
+        horizon: a run that has not ended by then is broken off [s]; None for never.
     """
 
     layout: CellLayout
@@ -81,6 +86,8 @@ class Job:
     severity: Severity = Severity.NORMAL
     named: tuple[tuple[BoxId, Vector3], ...] = ()
     note: Delivery | None = None
+    faults: FaultPlan = field(default_factory=FaultPlan)
+    horizon: float | None = None
 
     @property
     def told(self) -> Delivery:

@@ -158,13 +158,15 @@ class Carrying:
         """The motion of the held box into a place, from where it is."""
         promises = self._promises
         kept, here = promises.carry_of(box), self._planner.here
-        if kept is not None and kept.place == place and stands_at(here, kept.motion.start):
+        there = self._open((place,)) if place != ASIDE else [place]
+        good = kept is not None and kept.place == place and bool(there)
+        if kept is not None and good and stands_at(here, kept.motion.start):
             promises.next_start = kept.end
             return kept
         promises.release(box)
-        there = self._places_named(place)
+        named = self._places_named(place)
         elsewhere = () if place == ASIDE else self._lists.get(box, ())
-        return await self.find_place(box, (*there, *(p for p in elsewhere if p not in there)))
+        return await self.find_place(box, (*named, *(p for p in elsewhere if p not in named)))
 
     def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
         """The place itself, or all of the storage that boxes are set aside into."""
@@ -184,6 +186,18 @@ class Carrying:
             return None
         back = motion.positions[inside : row + 1][::-1].copy()
         return self._planner.timing.along([Part(Kind.STRAIGHT, rebased(back, here))])
+
+    def descent(self, plan: CarryPlan) -> Trajectory | None:
+        """The plan's way down, or what is left of it where the arm has stopped on it."""
+        here, motion = self._planner.here, plan.descent
+        row = int(np.argmin(np.abs(motion.positions - here).max(axis=1)))
+        if not row:
+            return motion
+        rest = motion.positions[row:].copy()
+        if len(rest) < 2:  # noqa: PLR2004 - a path has two ends
+            return None
+        part = Part(Kind.STRAIGHT, rebased(rest, here), touching=True)
+        return self._planner.timing.slowly(part, self._planner.holding(plan.load))
 
     def retreat(self, plan: CarryPlan) -> Trajectory | None:
         """Straight out of the place from where the arm has come to rest."""

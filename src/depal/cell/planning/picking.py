@@ -26,6 +26,9 @@ ROOM = 0.03
 MOVED = 0.008
 """A plan is good for a box that is seen this far from where it was planned for [m]."""
 
+Alike = tuple[Vector3, float, int, bool, frozenset[str]]
+"""Boxes of one size and mass, turned alike, that are held by the same modules."""
+
 
 class Picking:
     """Plans picks; a kept one is planned anew where it does not fit any more."""
@@ -35,7 +38,7 @@ class Picking:
         self._work = work
         self._planner = planner
         self._promises = promises
-        self._offered: dict[tuple[Vector3, float, int, bool], tuple[Grasp, ...]] = {}
+        self._offered: dict[Alike, tuple[Grasp, ...]] = {}
 
     def try_pick(
         self,
@@ -100,9 +103,14 @@ class Picking:
         mass = expected_mass(box, work.delivery)
         toward = np.array(box.shape.pose.rotation).T @ np.array(front)
         axis = int(np.argmax(np.abs(toward[:2])))
-        key = (box.shape.size, mass, axis, bool(toward[axis] > 0))
+        dead = work.modules.dead | work.modules.suspects(box.id, work.tries.get(box.id, 0))
+        key = (box.shape.size, mass, axis, bool(toward[axis] > 0), dead)
         if key not in self._offered:
-            self._offered[key] = grasps(box.shape, mass, work.layout.tool, front)
+            ways = grasps(box.shape, mass, work.layout.tool, front)
+            if dead:  # they come last: where nothing else reaches, they are tried again
+                live = grasps(box.shape, mass, work.layout.tool, front, dead)
+                ways = tuple(dict.fromkeys((*live, *ways)))
+            self._offered[key] = ways
         return self._offered[key]
 
     def masses(self, box: Perceived) -> tuple[float | None, float | None]:
@@ -135,6 +143,9 @@ class Picking:
         if seen is None:
             return f"box {box} is not seen on the pallet"
         kept = promises.pick_of(box)
+        if kept is not None and not self._work.modules.allow(kept.grasp):
+            promises.forget_pick(box)
+            kept = None
         if kept is not None and self._is_good(kept, seen):
             return kept
         before = planner.planned

@@ -77,7 +77,9 @@ class Checking:
         if len(strange) == 1:
             work.strangers[box] = strange[0]
             return self._refuse(box, f"product {strange[0]} is not on the note")
-        return await self._ask(box, f"the reader saw {', '.join(seen) or 'no code'}")
+        if not seen:
+            return self._refuse(box, "no side of it shows a label that can be read")
+        return await self._ask(box, f"the reader saw {', '.join(seen)}")
 
     async def _ask(self, box: BoxId, why: str) -> Report:
         """Nobody but a person can tell."""

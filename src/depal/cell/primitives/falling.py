@@ -1,5 +1,6 @@
 """What is done and said when a held box is lost."""
 
+from depal.cell.halting import moved_away
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.executive.engine import Report
@@ -24,7 +25,6 @@ async def report_loss(
     """
     if reason == LOST:
         await work.ports.gripper.release()
-        if way_out is not None:
-            await work.ports.arm.follow(way_out)
+        await moved_away(work.ports.arm, way_out)
         work.dropped(box)
     return Report(outcome=Outcome.FAILED, reason=reason)

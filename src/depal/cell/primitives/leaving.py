@@ -2,6 +2,7 @@
 
 from depal.cell.departures import Fate
 from depal.cell.guards import Guards
+from depal.cell.halting import moved_away
 from depal.cell.hand import Phase
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import CarryPlan
@@ -75,9 +76,7 @@ class Leaving:
             self._standing[box] = plan
             self._desk.promises.confirm(plan)
             self._work.ended(box, fate, plan.place, reason)
-        retreat = self._desk.carrying.retreat(plan)
-        if retreat is not None:
-            await self._work.ports.arm.follow(retreat)
+        await moved_away(self._work.ports.arm, self._desk.carrying.retreat(plan))
         return None
 
     async def _lower(self, plan: CarryPlan) -> str | None:
@@ -85,7 +84,8 @@ class Leaving:
         mass = held.mass if held is not None else 0.0
         guard = self._guards.setting_down(mass)
         self._work.steps(Phase.LOWERING, plan.place)
-        if await ports.arm.follow(plan.descent, guard) == LOST:
+        descent = self._desk.carrying.descent(plan)
+        if descent is not None and await ports.arm.follow(descent, guard) == LOST:
             return LOST
         self._work.steps(Phase.VENTING, plan.place)
         await ports.gripper.release()
@@ -96,4 +96,4 @@ class Leaving:
         product = self._work.product_of(box)
         gtin = product.gtin if product else None
         movement = Movement(movement_id(box, plan.place), box, gtin, plan.place, self._work.now)
-        await self._work.ports.store.moved(movement)
+        await self._work.outbox.tell(movement)

@@ -1,11 +1,19 @@
 """The primitive of `query`: where the box goes, by the store's list and the room there is."""
 
+import asyncio
+from contextlib import suppress
+
+from depal.cell.outbox import DEADLINE
 from depal.cell.planning.desk import Desk
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, PlaceId, StorageKind
+from depal.domain import BoxId, Gtin, PlaceId, StorageKind
+from depal.errors import DeviceError
 from depal.executive.engine import Call, Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
+
+PAUSES = (1.0, 2.0, 4.0, 8.0, 8.0)
+"""After a silence of the store's system it is asked again so much later [s]."""
 
 
 class Querying:
@@ -23,10 +31,12 @@ class Querying:
         product = work.product_of(box)
         if product is None:
             return Report(outcome=Outcome.FAILED, reason="its product is not on the note")
-        places = await work.ports.store.places_for(product.gtin)
+        places = await self._asked(product.gtin)
+        if places is None:
+            return self._homeless(box, "the store's system does not answer")
         if not places:
-            reason = f"the store knows no place for product {product.gtin}"
-            return Report(outcome=Outcome.FAILED, reason=reason)
+            return self._homeless(box, f"the store knows no place for product {product.gtin}")
+        work.homeless.discard(box)
         reason = "no place was tried"
         for _ in range(1 + len(work.layout.storages)):
             found = await self._desk.carrying.find_place(box, places)
@@ -41,6 +51,20 @@ class Querying:
                 break
             await self._exchange(trolley)
         return Report(outcome=Outcome.FAILED, reason=f"no place has room: {reason}")
+
+    async def _asked(self, gtin: Gtin) -> tuple[PlaceId, ...] | None:
+        """The store's list; None where it stays silent."""
+        for pause in PAUSES:
+            with suppress(DeviceError, TimeoutError):
+                places_for = self._work.ports.store.places_for
+                return await asyncio.wait_for(places_for(gtin), DEADLINE)
+            await asyncio.sleep(pause)
+        return None
+
+    def _homeless(self, box: BoxId, reason: str) -> Report:
+        """Asked again, then set aside, whether it is in the hand by then or not."""
+        self._work.homeless.add(box)
+        return Report(outcome=Outcome.FAILED, reason=reason)
 
     def _to_exchange(self, places: tuple[PlaceId, ...]) -> str | None:
         """The first trolley of the list that holds something."""

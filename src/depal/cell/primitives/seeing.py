@@ -153,7 +153,7 @@ class Seeing:
         question = Question(
             f"missing/{box}",
             f"The note promises one more case of {work.delivery.products[gtin].name} ({gtin}), "
-            "and none is seen. Please take it off the pallet if it is there.",
+            "and none is seen. Please take it off the pallet, or off the floor, if it is there.",
             (TAKEN, ABSENT),
             str(box),
             gtin=gtin,

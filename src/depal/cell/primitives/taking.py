@@ -1,9 +1,11 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
 import asyncio
+from contextlib import suppress
 
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
+from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
@@ -27,6 +29,9 @@ NOTHING = 0.15
 
 HEAVY, SPARE = 1.35, 0.5
 """What weighs this much more than all that it can be, and so many kg, is more than one box."""
+
+SAME = 1
+"""The same side of a box is tried so often again before another one."""
 
 SWINGING = 0.06
 """After the lift the load swings so long before it is weighed [s]."""
@@ -69,7 +74,9 @@ class Taking:
         ports = self._work.ports
         size = plan.box.shape.size
         self._work.begins(Hand(box, plan.grasp, size, plan.mass, Phase.GRASPING))
-        if not await sucked(self._work, self._desk, plan):
+        came = await sucked(self._work, self._desk, plan)
+        self._work.modules.tried(box, {name for name, _ in plan.grasp.cups}, ports.gripper.vacuum())
+        if not came:
             self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
         lift = lifted_from(self._desk, plan)
@@ -146,12 +153,15 @@ class Taking:
         ports, box = self._work.ports, plan.box.id
         await ports.gripper.release()
         self._work.lets_go()
-        for retreat in self._desk.picking.way_back(plan):
-            await ports.arm.follow(retreat)
+        with suppress(HaltedError):  # it has drawn back by itself
+            for retreat in self._desk.picking.way_back(plan):
+                await ports.arm.follow(retreat)
         self._desk.promises.forget_pick(box)
-        failed = self._work.doubted.get(box, frozenset())
-        self._work.doubted[box] = failed | {plan.grasp.approach}
         self._work.tries[box] = tries = self._work.tries.get(box, 0) + 1
+        failed = self._work.doubted.get(box, frozenset())
+        if tries > SAME:
+            failed |= {plan.grasp.approach}
+        self._work.doubted[box] = failed
         told = isinstance(plan.box, Recognition) or not self._work.pile.remembered
         if tries >= VAIN and not told:
             self._work.deny(plan.box)  # something else stands there, or nothing

@@ -26,7 +26,13 @@ EACH_ROLL = 2
 """So many of every roll come first: where one does not reach, another may."""
 
 
-def grasps(box: OrientedBox, mass: float, tool: Tool, front: Vector3) -> tuple[Grasp, ...]:
+def grasps(
+    box: OrientedBox,
+    mass: float,
+    tool: Tool,
+    front: Vector3,
+    without: frozenset[str] = frozenset(),
+) -> tuple[Grasp, ...]:
     """Every useful way to hold a box, best first.
 
     Args:
@@ -34,6 +40,7 @@ def grasps(box: OrientedBox, mass: float, tool: Tool, front: Vector3) -> tuple[G
         mass: of the box [kg].
         tool: the gripper.
         front: towards the robot, horizontal, in the cell frame.
+        without: modules of the gripper that must not be used.
 
     Returns:
         Grasps whose suction holds the box still with the planner's safety; horizontal ones touch
@@ -42,7 +49,7 @@ def grasps(box: OrientedBox, mass: float, tool: Tool, front: Vector3) -> tuple[G
     """
     found: list[tuple[float, int, Way]] = []
     for face in faces_of(box, front):
-        for plate in plates_for(tool, face.approach):
+        for plate in plates_for(tool, face.approach, without):
             groups: dict[tuple[int, ...], CupGroup] = {}
             for way in ways_on(face, plate, tool):
                 share = share_of(way, mass, tool, groups)

@@ -113,8 +113,16 @@ def _face(approach: Approach, size: Vector3, normal: Floats, up: Floats) -> Face
     return Face(approach, pose, width, height, depth)
 
 
-def plates_for(tool: Tool, approach: Approach) -> Iterator[Plate]:
-    """The plates that can touch a face: in front one module or both, on top the lower one."""
+def plates_for(
+    tool: Tool, approach: Approach, without: frozenset[str] = frozenset()
+) -> Iterator[Plate]:
+    """The plates that can touch a face: in front one module or both, on top the lower one.
+
+    Args:
+        tool: the gripper.
+        approach: from the front or from above.
+        without: modules that must not be used.
+    """
 
     def plate(names: tuple[str, ...], *, folded: bool) -> Plate:
         flange_from_face = tool.module(names[0], folded=folded).flange_from_face
@@ -131,10 +139,13 @@ def plates_for(tool: Tool, approach: Approach) -> Iterator[Plate]:
         return Plate(folded, flange_from_face, tuple(cups), np.array(centres))
 
     if approach is Approach.VERTICAL:
-        yield plate((LOWER,), folded=False)
-        return
-    yield plate((FRONT,), folded=False)
-    yield plate((FRONT, LOWER), folded=True)
+        offers: tuple[tuple[tuple[str, ...], bool], ...] = (((LOWER,), False),)
+    else:
+        offers = (((FRONT,), False), ((FRONT, LOWER), True))
+    for names, folded in offers:
+        left = tuple(name for name in names if name not in without)
+        if left:
+            yield plate(left, folded=folded)
 
 
 def ways_on(face: Face, plate: Plate, tool: Tool) -> Iterator[Way]:

@@ -36,11 +36,11 @@ CELL_ITALIAN: Final[tuple[tuple[str, str], ...]] = (
     (
         (
             "The note promises one more case of {name} ({gtin}), and none is seen. "
-            "Please take it off the pallet if it is there."
+            "Please take it off the pallet, or off the floor, if it is there."
         ),
         (
             "La bolla promette un altro collo di {name} ({gtin}) e non si vede. "
-            "Se c'è, toglilo dal pallet."
+            "Se c'è, toglilo dal pallet o dal pavimento."
         ),
     ),
     (
@@ -71,8 +71,20 @@ CELL_ITALIAN: Final[tuple[tuple[str, str], ...]] = (
         ),
         "La cella è ripartita mentre spostava la scatola {box} e i sensori non sanno dov'è. Dov'è?",
     ),
+    (
+        (
+            "The arm has stopped: {reason}. Please see that nobody is in the cell, clear the "
+            "cause, reset it, and say start."
+        ),
+        (
+            "Il braccio si è fermato: {reason}. Controlla che nella cella non ci sia nessuno, "
+            "elimina la causa, ripristina e conferma l'avvio."
+        ),
+    ),
     ("trolley_{number}", "Il carrello {number}"),
     # Answers
+    ("start", "avvia"),
+    ("it cannot go on now", "adesso non può continuare"),
     ("taken", "l'ho presa"),
     ("done", "fatto"),
     ("yes", "sì"),
