@@ -346,14 +346,13 @@ def test_an_end_is_told_to_whoever_is_connected_and_takes_the_files_along() -> N
             motion = asyncio.create_task(world.arm.follow(SWING))
             await asyncio.sleep(0.3)
             await world.shutdown()
+            assert list(folder.iterdir()) == []
             with pytest.raises(DeviceError, match="the world's process has gone"):
                 await motion
             with pytest.raises(DeviceError, match="the world's process has gone"):
                 world.arm.joints()
             assert await idle.reader.read() == b""
             idle.writer.close()
-            await asyncio.sleep(0.5)
-            assert list(folder.iterdir()) == []
             await world.shutdown()
 
     paced(work)

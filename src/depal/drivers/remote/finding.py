@@ -98,7 +98,15 @@ def start_world(folder: Path, rate: float = 1.0, start: float = 0.0) -> Card:
         if os.waitpid(pid, os.WNOHANG)[0] == pid:
             break
         time.sleep(0.02)
-    raise DeviceError(f"the simulated world did not start; its words are in {folder / LOG}")
+    raise DeviceError(
+        f"the simulated world did not start; its words are in {folder / LOG}, "
+        f"the last of them: {_last_line(folder / LOG)}"
+    )
+
+
+def _last_line(path: Path) -> str:
+    lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
+    return lines[-1] if lines else "none"
 
 
 async def connect(folder: Path, cameras: int) -> RemoteWorld:

@@ -158,7 +158,7 @@ class WorldServer:
         )
         link.say(m.Reply(first.number, msgspec.msgpack.encode(welcome), state=state))
         try:
-            while not self._over.is_set():
+            while True:  # until it goes, or the world hangs up, when its files are gone
                 request = await received(reader, decoder)
                 link.silence = 0.0
                 self._take(link, request)
