@@ -184,6 +184,7 @@ def _judge(cell: Cell, wanted: int, tally: Tally) -> None:
     states = Counter(request["state"] for request in requests)
     if states["served"] != wanted or len(requests) != wanted:
         wrong.append(f"{wanted} requests, and they are {dict(states)}")
+    wrong += truth.collisions
     tally.wrong += wrong
 
 
