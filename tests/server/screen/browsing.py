@@ -107,6 +107,6 @@ def browser(folder: Path, **options: Any) -> Iterator[Any]:  # noqa: ANN401 - Pl
             reduced_motion="reduce",
             **options,
         )
-        context.set_default_timeout(20_000)
+        context.set_default_timeout(60_000)
         yield context
         context.close()

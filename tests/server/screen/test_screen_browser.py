@@ -19,7 +19,7 @@ from browsing import (
 
 pytestmark = pytest.mark.slow
 
-STEP = 0.12
+STEP = 0.2
 """The scripted cell's [s]; a box takes eleven of them."""
 
 MOST_CLICKS = 3
