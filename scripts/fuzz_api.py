@@ -23,7 +23,7 @@ from rich.table import Table
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests" / "server"))
 
 from api_recipes import SUCCESSES, succeed
-from sites import PEOPLE, site_over
+from sites import PEOPLE, REACHED, site_over
 
 from depal.server.api import build_app
 from depal.server.roles import Role
@@ -75,7 +75,7 @@ class Tally:
 def fuzz(folder: Path, requests: int, seed: int) -> Tally:
     """So many requests against a site in a folder."""
     site = site_over(folder)
-    app = build_app(site)
+    app = build_app(site, REACHED)
     schema = schemathesis.openapi.from_asgi("/openapi.json", app)
     _, token = site.tokens.add("fuzz", 300.0)
     tally, turn = Tally(), Counter()

@@ -11,6 +11,7 @@ from depal.cell.files import shipped_cell
 from depal.domain import BoxId, Request
 from depal.logistics import shipped_deliveries
 from depal.logistics.store import Database, by_storage
+from depal.server.api import Exposure
 from depal.server.cellstate import CellState, Mode, QuestionState, QueueLine, Solid, StandingBox
 from depal.server.events import PER_RUN, Event
 from depal.server.fakes import FakeCell
@@ -20,6 +21,9 @@ from depal.server.site import Site
 PASSWORD = "ten letters at least"  # noqa: S105 - of nobody
 
 PEOPLE = {Role.VIEWER: "vera", Role.OPERATOR: "otto", Role.INTEGRATOR: "ines"}
+
+REACHED = Exposure(frozenset({"testserver"}))
+"""By the name that a test client asks for."""
 
 QUICK = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
 """Guessing is not what these tests are about."""

@@ -7,7 +7,7 @@ import pytest
 from fastapi.testclient import TestClient
 from hypothesis import given
 from hypothesis import strategies as st
-from sites import LINE, PASSWORD, site_over, upload
+from sites import LINE, PASSWORD, REACHED, site_over, upload
 
 from depal.errors import DeviceError
 from depal.server.api import Exposure, build_app
@@ -30,7 +30,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Site:
 @pytest.fixture(scope="module")
 def client(site: Site) -> Iterator[TestClient]:
     """Signed in as an integrator."""
-    with TestClient(build_app(site), raise_server_exceptions=False) as client:
+    with TestClient(build_app(site, REACHED), raise_server_exceptions=False) as client:
         body = {"name": "ines", "password": PASSWORD}
         assert client.post("/api/v1/sign-in", json=body).status_code == 200
         client.headers["origin"] = "http://testserver"

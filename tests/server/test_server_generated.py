@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from fastapi.testclient import TestClient
-from sites import LINE, PASSWORD, site_over, upload
+from sites import LINE, PASSWORD, REACHED, site_over, upload
 
 from depal.server.api import build_app
 from depal.server.site import Site
@@ -34,7 +34,7 @@ def site(tmp_path: Path) -> Site:
 @pytest.fixture
 def client(site: Site) -> Iterator[TestClient]:
     """Signed in as an integrator."""
-    with TestClient(build_app(site), raise_server_exceptions=False) as client:
+    with TestClient(build_app(site, REACHED), raise_server_exceptions=False) as client:
         body = {"name": "ines", "password": PASSWORD}
         assert client.post("/api/v1/sign-in", json=body).status_code == 200
         client.headers["origin"] = "http://testserver"

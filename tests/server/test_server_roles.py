@@ -10,7 +10,7 @@ import pytest
 from fastapi import APIRouter, FastAPI
 from fastapi.routing import APIRoute
 from fastapi.testclient import TestClient
-from sites import PASSWORD, PEOPLE, site_over
+from sites import PASSWORD, PEOPLE, REACHED, site_over
 
 from depal.server.api import build_app
 from depal.server.problems import Answer, Forbidden, SignInNeeded
@@ -57,7 +57,7 @@ def site(tmp_path_factory: pytest.TempPathFactory) -> Site:
 @pytest.fixture(scope="module")
 def client(site: Site) -> Iterator[TestClient]:
     """Over its API."""
-    with TestClient(build_app(site), raise_server_exceptions=False) as client:
+    with TestClient(build_app(site, REACHED), raise_server_exceptions=False) as client:
         yield client
 
 
@@ -141,7 +141,7 @@ def test_every_route_serves_a_use_case_and_three_are_for_everybody(client: TestC
 
 def test_a_route_without_a_use_case_is_for_nobody(site: Site) -> None:
     """Whoever forgets to say who may use it has opened nothing."""
-    app = build_app(site)
+    app = build_app(site, REACHED)
     router = next(r for r in _routers(app) if r.routes)
 
     @router.get("/forgotten")
@@ -278,7 +278,7 @@ def test_a_name_that_is_not_ours_is_not_answered(client: TestClient) -> None:
 def test_guessing_a_password_gets_slower_and_the_right_one_waits_too(tmp_path: Path) -> None:
     """By account and by address; after the wait it works again."""
     site = site_over(tmp_path, busy=False)
-    with TestClient(build_app(site)) as client:
+    with TestClient(build_app(site, REACHED)) as client:
 
         def sign_in(password: str) -> tuple[int, str]:
             body = {"name": "vera", "password": password}

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
-from sites import PER_RUN, Event, FakeEvents, site_over
+from sites import PER_RUN, REACHED, Event, FakeEvents, site_over
 
 from depal.server.api import build_app
 from depal.server.api.routes import journal
@@ -25,7 +25,7 @@ def site(tmp_path: Path) -> Site:
 def client(site: Site) -> Iterator[TestClient]:
     """A service."""
     _, secret = site.tokens.add("till", 1.0)
-    with TestClient(build_app(site)) as client:
+    with TestClient(build_app(site, REACHED)) as client:
         client.headers["authorization"] = f"Bearer {secret}"
         yield client
 

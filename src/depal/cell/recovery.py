@@ -77,8 +77,8 @@ class Recovery:
     async def go_on(self) -> None:
         """A person has said start: what is open is asked, the arm gets clear, the facts are set."""
         await self._probed()
-        if self.found is Found.UNKNOWN and self._hand is not None:
-            await self._ask(self._hand)
+        if self.found is Found.UNKNOWN:
+            await (self._empty_hand() if self._hand is None else self._ask(self._hand))
         await self._settle()
         self._work.plans.open()
         self._work.runtime.start("person")
@@ -88,6 +88,17 @@ class Recovery:
         attempts = self._work.runtime.engine.state.attempts
         while any(each.in_doubt for each in attempts.values()):  # noqa: ASYNC110 - they are short
             await asyncio.sleep(SETTLING)
+
+    async def _empty_hand(self) -> None:
+        """Something hangs on the arm, and no step is known that it could be in."""
+        text = (
+            "The cell was started anew and something hangs on the arm that it does not know of. "
+            "Please hold it, take it out of the gripper and out of the cell."
+        )
+        question = Question("restart/arm", text, (TAKEN,), "arm")
+        await self._work.questions.ask(question)
+        await self._work.ports.gripper.release()
+        self.found = Found.NOTHING
 
     async def _ask(self, hand: Hand) -> None:
         choices = (HANGS, *((STANDS,) if hand.place is not None else ()), ON_PALLET, TAKEN)

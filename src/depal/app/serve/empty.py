@@ -20,7 +20,7 @@ def empty_statement(
 ) -> CellState:
     """Nothing stands there that anybody knows of."""
     return replace(
-        before,
+        CellState(),
         version=before.version + 1,
         at=clock.now(),
         mode=mode,

@@ -7,7 +7,6 @@ from concurrent.futures import Future
 from typing import Any, TypeVar
 
 from depal.app.serve.means import Means
-from depal.app.serve.outside import World
 from depal.app.serve.pictures import Picture
 from depal.app.serve.shift import Shift
 from depal.domain import CellLayout, Request
@@ -40,7 +39,6 @@ class Host:
         self._ready: Future[None] = Future()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._over: asyncio.Event | None = None
-        self._keep_world = False
         self._watchers: list[Watcher] = []
         self._state = CellState()
         self._picture = Picture()
@@ -60,9 +58,8 @@ class Host:
         self._thread.start()
         self._ready.result()
 
-    def shut(self, *, keep_world: bool = False) -> None:
-        """Ends the thread, and the world with it unless it is to live on."""
-        self._keep_world = keep_world
+    def shut(self) -> None:
+        """Ends the thread, and the world with it."""
         if self._loop is not None and self._over is not None and self._thread.is_alive():
             self._loop.call_soon_threadsafe(self._over.set)
         self._thread.join(PATIENCE)
@@ -169,11 +166,8 @@ class Host:
         telling = asyncio.create_task(shift.tell_on())
         await self._over.wait()
         telling.cancel()
-        await self._end(shift, world)
-
-    async def _end(self, shift: Shift, world: World) -> None:
         await shift.end()
-        await (world.close() if self._keep_world else world.shutdown())
+        await world.shutdown()
 
     def _tell(self, state: CellState) -> None:
         self._state = state

@@ -22,6 +22,7 @@ from depal.cell.reporting import ChoiceNote
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.workplace import Policy, Ports, Settings
 from depal.domain import BoxId, CellLayout, Gtin, Request
+from depal.errors import DepalError
 from depal.executive import events as ev
 from depal.executive.clock import Clock
 from depal.executive.journal import SqliteJournal
@@ -157,7 +158,13 @@ class Session:
         work, desk = self.wired.work, self.wired.desk
         restore(page, work, desk.promises)
         self._around.seen.recall(page)
-        self._told = {departure.box for departure in page.departures}
+        # What still stands where it was set aside is asked about anew.
+        kept = {each.standing.id for each in page.kept}
+        self._told = {
+            departure.box
+            for departure in page.departures
+            if departure.fate is not Fate.SET_ASIDE or departure.box not in kept
+        }
         known = {wish.key for wish in work.wishes}
         for key, request in self.order.requests:
             if key not in known:
@@ -189,7 +196,12 @@ class Session:
         self.stage = Stage.WORKING
         self.wired.work.gate.open()
         if stage is Stage.RECOVERED and recovery is not None:
-            await recovery.go_on()
+            try:
+                await recovery.go_on()
+            except DepalError:
+                self.stage = stage  # nothing is forgotten: the next start reconciles anew
+                recovery.examine()
+                raise
             self._recovery = None
             self.wired.controller.begin()
         elif stage in {Stage.HELD, Stage.STOPPED}:

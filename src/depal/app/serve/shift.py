@@ -3,6 +3,7 @@
 import asyncio
 import threading
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
@@ -150,12 +151,20 @@ class Shift:
         try:
             await session.run()
             await session.close()
-        except asyncio.CancelledError:
-            raise
-        except DepalError as error:
-            text, todo = f"The run has failed: {error}", "Look at the cell, then start it anew."
-            self._trouble = Alarm("run", text, todo, self._clock.now())
+        except Exception as error:  # noqa: BLE001 - whatever it is, nobody waits for ever
+            await self._give_up(session, error)
         self.tell()
+
+    async def _give_up(self, session: Session, error: Exception) -> None:
+        """A run that cannot go on is over: its delivery waits again."""
+        with suppress(DepalError):
+            await session.close()
+        self._session = None
+        text = f"Run {session.order.run} has failed: {error}"
+        todo = "Look at the cell, load the pallet anew, then press Start."
+        self._trouble = Alarm("run", text, todo, self._clock.now())
+        reason: dict[str, object] = {"reason": str(error)}
+        self._records.run_ended(session.order.run, "aborted", self._clock.now(), reason)
 
     def _live(self) -> Session | None:
         """The run that is not over."""
@@ -194,7 +203,6 @@ class Shift:
         except DepalError as error:
             text, todo = f"The cell could not go on: {error}", "Look at the cell, then press Start."
             self._trouble = Alarm("resume", text, todo, self._clock.now())
-            session.stage = Stage.HELD
         self.tell()
 
     def stop_after_box(self) -> None:

@@ -15,8 +15,8 @@ from depal.server.records.queue import CANCELLED, DONE, QUEUED, RUNNING
 
 WORKING, FAILED = "running", "failed"
 
-LEAVES = {"done": DONE, FAILED: QUEUED}
-"""What becomes of the delivery; it is cancelled in all other cases."""
+LEAVES = {"done": DONE, FAILED: QUEUED, "aborted": QUEUED}
+"""What becomes of the delivery: its pallet is empty, or is loaded anew."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,177 @@
+"""A shift that does not go well: nobody waits for ever, and nothing is forgotten."""
+
+import asyncio
+from pathlib import Path
+
+import pytest
+from served_runs import Notes, WorldHere
+from tiny_runs import THREE, tiny
+
+from depal.app.serve.means import Means
+from depal.app.serve.pictures import Picture
+from depal.app.serve.seeing import Seen
+from depal.app.serve.session import Session, Stage, Surroundings
+from depal.app.serve.shift import Shift
+from depal.cell.departures import Departure, Fate
+from depal.cell.files import shipped_cell
+from depal.cell.ledger import Found, KeptBox, Ledger, LeftBox, Page
+from depal.domain import Approach, BoxId
+from depal.errors import DeviceError
+from depal.executive.clock import LoopClock, run_simulated
+from depal.geometry import OrientedBox
+from depal.logistics.placing import Spot
+from depal.logistics.store import LocalStore, by_storage
+from depal.server.cell import Order, Refusal, Settings
+from depal.server.cellstate import CellState, Mode
+from depal.simulation.cell import build
+from depal.simulation.truth_sight import SightSettings
+
+LAYOUT, DELIVERY = shipped_cell("default"), tiny(*THREE)
+
+SHARP = SightSettings(sigma=0.001, unrecognised=0.0)
+
+
+def around(folder: Path) -> tuple[Means, WorldHere, Notes, LoopClock, LocalStore]:
+    """What a shift works with, in simulated time."""
+    clock, store = LoopClock(), LocalStore()
+    store.seed_places([DELIVERY], by_storage(LAYOUT.places, without=LAYOUT.aside))
+    world = WorldHere(build(LAYOUT, DELIVERY, clock=clock, sight=SHARP), clock)
+
+    async def connect(_: object) -> WorldHere:
+        return world
+
+    notes = Notes()
+    means = Means(
+        LAYOUT, folder, connect, lambda _: store, lambda: notes, lambda _: None, perception="truth"
+    )
+    return means, world, notes, clock, store
+
+
+def test_a_run_that_fails_is_over_and_the_next_one_may_be_started(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever it fails with: stopped, with an alarm that says so, and nothing of it left."""
+
+    async def fails(_: Session) -> None:
+        await asyncio.sleep(1.0)
+        raise ValueError("a bug")
+
+    async def shift() -> list[CellState]:
+        means, world, notes, clock, _ = around(tmp_path)
+        told: list[CellState] = []
+        day = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        with monkeypatch.context() as patched:
+            patched.setattr(Session, "run", fails)
+            await day.start(Order(1, DELIVERY))
+            with pytest.raises(Refusal, match="is being started"):
+                await day.start(Order(2, DELIVERY))
+            await asyncio.sleep(5.0)
+        failed = told[-1]
+        assert (failed.mode, failed.run, failed.queue) == (Mode.STOPPED, None, ())
+        assert [alarm.text for alarm in failed.alarms] == ["Run 1 has failed: a bug"]
+        assert [state for _, state, _ in notes.runs] == ["aborted"]
+        await day.start(Order(2, DELIVERY))
+        await asyncio.sleep(2.0)
+        assert (told[-1].mode, told[-1].run, told[-1].alarms) == (Mode.EXECUTE, 2, ())
+        await day.end()
+        return told
+
+    versions = [state.version for state in run_simulated(shift())]
+    assert versions == sorted(versions)
+
+
+def session_over(folder: Path) -> tuple[Session, WorldHere]:
+    """A run that is taken up where there is a record, else a new one."""
+    means, world, notes, clock, store = around(folder)
+    there = Surroundings(LAYOUT, world, store, notes, clock, Seen(world.truth_sight))
+    del means
+    return Session(Order(1, DELIVERY), there, Settings(), folder / "run", lambda: None), world
+
+
+def begun(folder: Path, page: Page) -> None:
+    """The record of a run whose controller has ended, with this last page in its ledger."""
+
+    async def begin() -> None:
+        session, _ = session_over(folder)
+        session.wired.controller.begin()
+        await asyncio.sleep(0.1)
+        await session.close()
+
+    run_simulated(begin())
+    with Ledger(folder / "run" / "ledger.db") as ledger:
+        ledger.write(page)
+
+
+def test_what_hangs_on_the_arm_unknown_to_all_is_taken_out_by_a_person(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nothing moves before that; then the run goes on."""
+    begun(tmp_path, Page())
+
+    async def restart() -> None:
+        monkeypatch.setattr("depal.simulation.devices.SimulatedArm.load", lambda _: 3.0)
+        session, world = session_over(tmp_path)
+        assert session.found is Found.UNKNOWN
+        resuming = asyncio.create_task(session.resume("somebody"))
+        before = world.arm.joints()
+        await asyncio.sleep(5.0)
+        (question,) = session.person.open
+        assert "take it out of the gripper" in question.text
+        assert world.arm.joints() == pytest.approx(before, abs=1e-9)
+        session.person.answer(question.id, "taken", "somebody")
+        await resuming
+        assert session.stage is Stage.WORKING
+        await session.close()
+
+    run_simulated(restart())
+
+
+def test_a_restart_that_does_not_get_clear_is_reconciled_anew_at_the_next_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is not simply gone on with: the ledger still counts."""
+    begun(tmp_path, Page())
+
+    async def refuses(*_: object) -> str | None:
+        raise DeviceError("the arm does not move")
+
+    async def restart() -> None:
+        session, _ = session_over(tmp_path)
+        with monkeypatch.context() as patched:
+            patched.setattr("depal.cell.recovery.get_clear", refuses)
+            with pytest.raises(DeviceError, match="does not move"):
+                await session.resume("somebody")
+        assert session.stage is Stage.RECOVERED
+        await session.resume("somebody")
+        assert session.stage is Stage.WORKING
+        await session.close()
+
+    run_simulated(restart())
+
+
+@pytest.mark.parametrize("fetched", [False, True])
+def test_what_was_set_aside_and_not_fetched_is_asked_about_again(
+    tmp_path: Path, *, fetched: bool
+) -> None:
+    """After a restart: a box that nobody has taken away still stands there."""
+    place = LAYOUT.storage(LAYOUT.aside).places[0]
+    size = (0.25, 0.28, 0.22)
+    spot = Spot(place.id, (0.05, -0.1, 0.0), size)
+    solid = OrientedBox(place.cell_from_place @ spot.place_from_box, size)
+    kept = () if fetched else (KeptBox(place.id, spot.standing(BoxId("b1"), 4.0), solid),)
+    aside = Departure(
+        BoxId("b1"), None, Approach.VERTICAL, place.id, Fate.SET_ASIDE, "nobody knows it", 3.0
+    )
+    left = (LeftBox(BoxId("b1"), 3.0, None),)
+    begun(tmp_path, Page(left=left, departures=(aside,), kept=kept))
+
+    async def restart() -> list[str]:
+        session, _ = session_over(tmp_path)
+        await session.resume("somebody")
+        await asyncio.sleep(3.0)
+        asked = [question.text for question in session.person.open if not question.blocks]
+        await session.close()
+        return asked
+
+    told = ["Box b1 was set aside: nobody knows it. Please take it away."]
+    assert run_simulated(restart()) == ([] if fetched else told)
