@@ -9,7 +9,7 @@ import pytest
 from depal.app.serve.backup import back_up
 from depal.app.serve.feed import Feed
 from depal.app.serve.person import ScreenPerson
-from depal.app.serve.serving import Service, Serving
+from depal.app.serve.serving import Service, Serving, listen_at
 from depal.errors import SettingError
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.journal import Entry, SqliteJournal
@@ -161,3 +161,11 @@ def test_the_first_link_has_a_code_until_somebody_is_there(tmp_path: Path) -> No
     assert service.site.codes.good(code)
     kept = json.dumps([place.id for place in service.site.cell.layout.places.values()])
     assert "trolley_1/level_1" in kept
+
+
+def test_a_port_that_somebody_has_is_refused_before_anything_is_made() -> None:
+    """With the port, and what to do."""
+    with listen_at("127.0.0.1", 0) as taken:
+        port = taken.getsockname()[1]
+        with pytest.raises(SettingError, match=f"listen at 127.0.0.1:{port}: .*; expected a free"):
+            listen_at("127.0.0.1", port)

@@ -3,6 +3,7 @@
 import asyncio
 import logging
 import signal
+import socket
 import sys
 from collections.abc import Callable, Coroutine
 from contextlib import suppress
@@ -100,9 +101,11 @@ class Service:
                 f"{serving.host} can be reached from outside, and nothing is encrypted",
                 "127.0.0.1, or --secure with a proxy before it that speaks TLS",
             )
-        serving.folder.mkdir(parents=True, exist_ok=True)
         self._serving = serving
+        if not serving.url:
+            serving.folder.mkdir(parents=True, exist_ok=True)
         self._database = Database(serving.url or f"sqlite:///{serving.folder / STORE}")
+        serving.folder.mkdir(parents=True, exist_ok=True)
         self._chance = SystemChance()
         self._feed = Feed(serving.folder / RUNS)
         self._card: Card | None = None
@@ -191,6 +194,7 @@ def serve(serving: Serving, say: Callable[[str], None]) -> None:
         DepalError: the world or the cell does not start.
     """
     sys.setswitchinterval(TURN)
+    listening = listen_at(serving.host, serving.port)
     service = Service(serving)
     # The web server ends on these signals and then raises them again, for whoever waits: for us
     # they are over by then, and cell and world end in order.
@@ -198,16 +202,31 @@ def serve(serving: Serving, say: Callable[[str], None]) -> None:
         signal.signal(number, lambda *_: None)
     service.open()
     try:
-        asyncio.run(_serve(service, serving, say))
+        asyncio.run(_serve(service, serving, listening, say))
     finally:
         service.shut()
+        listening.close()
 
 
-async def _serve(service: Service, serving: Serving, say: Callable[[str], None]) -> None:
+def listen_at(host: str, port: int) -> socket.socket:
+    """A socket that listens.
+
+    Raises:
+        SettingError: it cannot, for instance because somebody else does.
+    """
+    family = socket.AF_INET6 if ":" in host else socket.AF_INET
+    try:
+        return socket.create_server((host, port), family=family)
+    except OSError as error:
+        what = f"nobody can listen at {host}:{port}: {error.strerror}"
+        raise SettingError("--port", what, "a free port, or 0 for any") from error
+
+
+async def _serve(
+    service: Service, serving: Serving, listening: socket.socket, say: Callable[[str], None]
+) -> None:
     config = uvicorn.Config(
         service.app,
-        host=serving.host,
-        port=serving.port,
         log_level=logging.WARNING,
         timeout_graceful_shutdown=int(LINGER),
         server_header=False,
@@ -215,11 +234,11 @@ async def _serve(service: Service, serving: Serving, say: Callable[[str], None])
     )
     server = uvicorn.Server(config)
     loop = asyncio.get_running_loop()
-    running = loop.create_task(server.serve())
+    running = loop.create_task(server.serve([listening]))
     while not server.started and not running.done():  # noqa: ASYNC110 - it tells nobody
         await asyncio.sleep(0.02)
     if server.started:
-        port = server.servers[0].sockets[0].getsockname()[1]
+        port = listening.getsockname()[1]
         link = service.first_link(port)
         scheme = "https" if serving.secure else "http"
         say(link or f"{scheme}://{serving.host}:{port}/")
