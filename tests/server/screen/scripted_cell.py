@@ -38,8 +38,11 @@ ROUND = ("Take it off the pallet", "Leave it")
 class ScriptedCell:
     """See `depal.server.cell.Cell`; its run asks one question and wants one trolley exchanged."""
 
-    def __init__(self, step: float = STEP) -> None:
-        """Nothing yet."""
+    def __init__(self, step: float = STEP, *, patient: bool = False) -> None:
+        """A patient one waits after its first box for a request, so no visitor is too slow."""
+        self._asked = threading.Event()
+        if not patient:
+            self._asked.set()
         self.records: Records | None = None
         self._layout = shipped_cell("default")
         self._step = step
@@ -122,6 +125,7 @@ class ScriptedCell:
         with self._lock:
             self._requests[key] = request
             self._estimate()
+        self._asked.set()
 
     def change_request(self, key: str, request: Request) -> None:
         """Another priority."""
@@ -199,11 +203,13 @@ class ScriptedCell:
             self._sort()
             self._look()
             self._move(turn)
-            if turn == 3:
+            if turn == 0:
+                self._asked.wait()
+                self._sort()
                 self._ask("take/b7", "The arm cannot take box b7: no reachable grasp. "
                           "Please take it off the pallet.", ("taken", "it is not there"),
                           Mode.HELD)  # fmt: skip
-            if turn == 5:
+            if turn == 1:
                 self._exchange("trolley_2")
         if self.records is not None:
             result: dict[str, object] = {"stored": self._state.stored, "boxes": self._state.boxes}

@@ -20,10 +20,12 @@ from depal.server.screen import attach
 from depal.server.site import Site
 
 
-def site_in(folder: Path, step: float, hasher: PasswordHasher | None = None) -> Site:
+def site_in(
+    folder: Path, step: float, hasher: PasswordHasher | None = None, *, patient: bool = False
+) -> Site:
     """A site over a scripted cell, with nobody in it."""
     database, chance = Database(f"sqlite:///{folder / 'store.db'}"), SystemChance()
-    cell = ScriptedCell(step)
+    cell = ScriptedCell(step, patient=patient)
     cell.records = Recorder(database, chance)
     return Site.over(database, cell, Feed(folder / "runs"), chance, folder / "runs", hasher)
 
@@ -42,7 +44,7 @@ class Announcing(uvicorn.Server):
 
 def main(folder: Path, step: float, port: int) -> None:
     """Serves until it is ended."""
-    site, exposure = site_in(folder, step), Exposure()
+    site, exposure = site_in(folder, step, patient=True), Exposure()
     app = build_app(site, exposure)
     attach(app, site, exposure)
     server = Announcing(uvicorn.Config(app, "127.0.0.1", port, log_level="warning"))

@@ -159,7 +159,7 @@ def begin(visit: Visit, link: str, axe: str | None) -> None:
 
 
 def wish(visit: Visit, axe: str | None) -> None:
-    """A box in the lowest layer is asked for, and moves up."""
+    """A box in the lowest layer is asked for, and moves up; the cell waits for the wish."""
     before = visit.queue().index("b4")
     visit.press("Request a case", ".wishes .head")
     visit.page.get_by_label("Search a product or a box").fill("b4")
@@ -183,7 +183,7 @@ def answer(visit: Visit, axe: str | None) -> None:
     visit.shot("question")
     visit.audit(axe)
     visit.page.locator(".todo").get_by_role("button", name="Taken", exact=True).dblclick()
-    visit.mode("Working")
+    visit.page.locator(".todo h2").get_by_text("box b7").wait_for(state="hidden")
     assert visit.page.locator(".toast.is-refused").count() == 0
 
 
