@@ -1,11 +1,12 @@
 """The last camera picture with what is believed to stand in it, as JPEG for the screen."""
 
 import io
+from collections.abc import Sequence
 
 import numpy as np
 from PIL import Image, ImageDraw
 
-from depal.app.pictures.fronts import front_of
+from depal.app.pictures.fronts import Floats, front_of
 from depal.app.serve.seeing import Seen
 from depal.app.serve.session import Session
 from depal.domain import Recognition
@@ -14,6 +15,12 @@ from depal.simulation.imaging.prints.fonts import font
 
 WIDTH = 720
 """Of the picture for the screen [pixel]."""
+
+MARGIN = 0.12
+"""Shown around the boxes, as a share of the extent of all of them."""
+
+MOST_MAGNIFIED = 4.0
+"""Pixels of the screen's for one of the camera's; where fewer boxes are left, all is shown."""
 
 NAMED, SEEN, TARGET = (0, 114, 178), (120, 120, 120), (213, 94, 0)
 
@@ -48,24 +55,39 @@ class Picture:
 
 
 def _drawn(frame: Frame, session: Session) -> bytes:
-    scale = WIDTH / frame.colour.shape[1]
-    image = Image.fromarray(frame.colour)
-    image = image.resize((WIDTH, round(frame.colour.shape[0] * scale)))
+    boxes = session.wired.work.pile.boxes
+    outlines = [(box, front_of(frame, box.shape)) for box in boxes]
+    shown = [(box, outline) for box, outline in outlines if outline is not None]
+    left, top, right, bottom = view = _view(frame, [outline for _, outline in shown])
+    scale = WIDTH / (right - left)
+    image = Image.fromarray(frame.colour).resize((WIDTH, round((bottom - top) * scale)), box=view)
     draw = ImageDraw.Draw(image)
     target = session.note.target if session.note is not None else None
-    for box in session.wired.work.pile.boxes:
-        outline = front_of(frame, box.shape)
-        if outline is None:
-            continue
+    for box, outline in sorted(shown, key=lambda each: each[0].id == target):
         colour = NAMED if isinstance(box, Recognition) else SEEN
         colour = TARGET if box.id == target else colour
-        corners = [(x * scale, y * scale) for x, y in outline.tolist()]
+        corners = [((x - left) * scale, (y - top) * scale) for x, y in outline.tolist()]
         draw.polygon(corners, outline=colour, width=3)
         x, y = np.mean(corners, axis=0).tolist()
         draw.text(
-            (x, y), box.id, fill=colour, font=font(15, bold=True), anchor="mm",
-            stroke_width=2, stroke_fill=(252, 252, 253),
+            (x, y), box.id, fill=colour, font=font(20, bold=True), anchor="mm",
+            stroke_width=3, stroke_fill=(252, 252, 253),
         )  # fmt: skip
     out = io.BytesIO()
     image.save(out, "JPEG", quality=80)
     return out.getvalue()
+
+
+def _view(frame: Frame, outlines: Sequence[Floats]) -> tuple[float, float, float, float]:
+    """Left, top, right and bottom [pixel] of what the boxes fill, and a margin around it."""
+    height, width = frame.colour.shape[:2]
+    if not outlines:
+        return (0, 0, width, height)
+    corners = np.concatenate(outlines)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    margin = MARGIN * float(max(high - low))
+    left, top = np.maximum(low - margin, 0.0).tolist()
+    right, bottom = np.minimum(high + margin, (width, height)).tolist()
+    if right - left < WIDTH / MOST_MAGNIFIED or bottom <= top:
+        return (0, 0, width, height)
+    return (left, top, right, bottom)
