@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from depal.domain import Product
 from depal.geometry import Pose, Vector3
+from depal.geometry.abreast import abreast
 from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
 from depal.perception.detecting import Expected, Finder, Found, Printed, Refuted
@@ -95,15 +96,17 @@ class Observer:
             before: the look before; what looks as it did then is taken over.
         """
         rasters = rasters_of(frames, self.region)
-        found = []
-        for k, raster in enumerate(rasters):
+
+        def faces_on(k: int) -> tuple[Face, ...]:
             kept: tuple[Face, ...] = ()
-            part: Raster | None = raster
+            part: Raster | None = rasters[k]
             if before is not None:
-                kept, part = _unchanged(before.rasters[k], before.faces[k], raster)
+                kept, part = _unchanged(before.rasters[k], before.faces[k], rasters[k])
             new = () if part is None else self._faces(part, kept, frames, known)
-            found.append((*kept, *new))
-        faces = (tuple(found[0]), tuple(found[1]))
+            return (*kept, *new)
+
+        fronts, tops = abreast(faces_on, range(len(rasters)))
+        faces = (fronts, tops)
         boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
         settled = tuple(face for box in boxes for face in box.faces)
         look = Look(boxes, *relations_of(boxes), faces=settled)

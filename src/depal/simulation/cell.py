@@ -12,7 +12,7 @@ from depal.simulation.devices import (
     SimulatedGripper,
     SimulatedSafety,
 )
-from depal.simulation.imaging.camera import SimulatedCamera
+from depal.simulation.imaging.camera import Shutter, SimulatedCamera
 from depal.simulation.imaging.reader import SimulatedReader
 from depal.simulation.imaging.scene import Stage
 from depal.simulation.imaging.severity import Severity
@@ -98,6 +98,7 @@ def build(  # noqa: PLR0913 - each is a choice of its own
     time = clock or LoopClock()
     world = kind(layout, cases_of(delivery, stack, layout), seed, start)
     safety, stage = SimulatedSafety(), Stage(world)
+    shutter = Shutter(stage)
     return SimulatedCell(
         world,
         SimulatedArm(world, time, safety),
@@ -108,5 +109,5 @@ def build(  # noqa: PLR0913 - each is a choice of its own
         TruthSight(world, time, sight),
         Referee(world),
         SimulatedReader(stage, time),
-        tuple(SimulatedCamera(stage, time, mount, severity) for mount in layout.cameras),
+        tuple(SimulatedCamera(stage, time, mount, severity, shutter) for mount in layout.cameras),
     )

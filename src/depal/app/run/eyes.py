@@ -1,12 +1,14 @@
 """What a simulated cell sees with when it looks with its cameras."""
 
 from collections.abc import Sequence
+from itertools import chain
 
 from depal.app.run.values import Job
 from depal.cell.sight import CameraSight, Eyes, extended_by, unexplained
 from depal.domain import CameraMount, CellLayout, DeliveryLine, Product
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox
+from depal.geometry.abreast import abreast
 from depal.perception.calibration import Calibration, calibrate
 from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
@@ -75,15 +77,15 @@ class Observing:
         """What is wrong with these frames."""
         before = self._previous or (None,) * len(frames)
         mounts = self._layout.cameras
-        found = [
-            f"camera {mount.name}: {problem}"
-            for frame, mount, known, old in zip(
-                frames, mounts, self._calibrations, before, strict=True
-            )
-            for problem in problems_of(frame, self._layout, mount, known, old, at)
-        ]
+
+        def told(k: int) -> list[str]:
+            known = self._calibrations[k]
+            problems = problems_of(frames[k], self._layout, mounts[k], known, before[k], at)
+            return [f"camera {mounts[k].name}: {problem}" for problem in problems]
+
+        found = abreast(told, range(len(frames)))
         self._previous = tuple(frames)
-        return tuple(found)
+        return tuple(chain(*found))
 
     def _true(self, frames: Sequence[Frame]) -> list[Frame]:
         return [
@@ -144,10 +146,8 @@ def sight_over(
     Raises:
         FrameError: a camera cannot be calibrated.
     """
-    calibrations = [
-        _calibrated(layout, mount, frame)
-        for mount, frame in zip(layout.cameras, frames, strict=True)
-    ]
+    pairs = tuple(zip(layout.cameras, frames, strict=True))
+    calibrations = abreast(lambda pair: _calibrated(layout, *pair), pairs)
     book = book_of([line.product for line in lines], seed, KNOWN_SHARE)
     eyes = Observing(layout, calibrations).eyes()
     return CameraSight(cameras, eyes, book, lines, clock, memory)

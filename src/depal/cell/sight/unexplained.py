@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from depal.domain import PalletStand
 from depal.geometry import OrientedBox, Pose
+from depal.geometry.abreast import abreast
 from depal.ports import Frame
 
 Floats = npt.NDArray[np.float64]
@@ -71,7 +72,7 @@ def unexplained(
     Returns:
         Upright solids in the cell frame.
     """
-    found = [_strange(frame, boxes, stand) for frame in frames]
+    found = abreast(lambda frame: _strange(frame, boxes, stand), frames)
     local = np.concatenate(found) if found else np.empty((0, 3))
     return tuple(solid.seen_from(stand.cell_from_pallet) for solid in _columns(local))
 

@@ -7,6 +7,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.geometry import Pose
+from depal.geometry.abreast import abreast
 from depal.perception.faces import Facing, Raster
 from depal.perception.rasters import kernels
 from depal.perception.rasters.region import Region
@@ -62,11 +63,11 @@ def rasters_of(
     Returns:
         The raster of what faces the viewer, and of what faces up.
     """
-    surfaces = [_surface(frame) for frame in frames]
-    return (
-        _raster(Facing.FRONT, frames, surfaces, region, step),
-        _raster(Facing.TOP, frames, surfaces, region, step),
+    surfaces = abreast(_surface, frames)
+    front, top = abreast(
+        lambda facing: _raster(facing, frames, surfaces, region, step), (Facing.FRONT, Facing.TOP)
     )
+    return front, top
 
 
 def intrinsics(k: Sequence[Sequence[float]]) -> Floats:
