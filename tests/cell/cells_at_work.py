@@ -9,7 +9,7 @@ from depal.app.run.record import Keeper
 from depal.cell.controller import Controller
 from depal.cell.departures import Fate
 from depal.cell.files import shipped_cell
-from depal.cell.planning.desk import Desk
+from depal.cell.planning.desk import MotionDesk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import ChoiceNote, Journalist
@@ -137,7 +137,7 @@ class Cell:
     sight: FakeSight = field(init=False)
     store: FakeStore = field(init=False)
     work: Workplace = field(init=False)
-    desk: Desk = field(init=False)
+    desk: MotionDesk = field(init=False)
     times: Timekeeper = field(init=False)
     sha256: str = field(init=False, default="")
     ended: float = field(init=False, default=0.0)
@@ -164,7 +164,7 @@ class Cell:
         ports = timed(ports, self.times)
         questions = Questions(ports.person, clock)
         self.work = Workplace(self.layout, note(self.boxes), ports, self.settings, questions)
-        self.desk = Desk(self.work, Planner(self.work, self.times, seed=self.seed))
+        self.desk = MotionDesk(self.work, Planner(self.work, self.times, seed=self.seed))
         for place in self.full:
             self.desk.promises.books = self.desk.promises.books.put(
                 place, filling(self.layout, place)

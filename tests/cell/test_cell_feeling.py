@@ -4,7 +4,6 @@ import numpy as np
 import numpy.typing as npt
 from cells_at_work import Cell, pile
 
-from depal.cell.primitives.feeling import under_cups
 from depal.geometry import OrientedBox
 from depal.ports import View
 
@@ -29,7 +28,7 @@ def test_what_is_under_the_cups_is_flat_and_lies_on_the_face_that_is_held() -> N
             continue
         held += 1
         cell.arm.at = plan.lift.start
-        place = under_cups(cell.work, cell.desk, plan)
+        place = cell.desk.feeling.under_cups(plan)
         low, high = bounds(place)
         assert min(place.size) < 0.01
         assert (low > least - 0.003).all()

@@ -90,8 +90,7 @@ def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Block
     graph = BlockingGraph(standing_apart(work.pile))
     if work.settings.policy is Policy.PAPER:
         return graph
-    kinematics = desk.planner.mover.body.kinematics
-    ways, codes = ways_in_cell(graph, work.layout, kinematics, desk.picking.offered)
+    ways, codes = ways_in_cell(graph, work.layout, desk.kinematics, desk.picking.offered)
     found = searches(work, graph, ways, wishes)
     return AccessGraph(graph, ways, codes, pace=pace_of(work), now=work.now, sought=found)
 

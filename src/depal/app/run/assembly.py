@@ -1,13 +1,13 @@
 """A controller over the ports of a cell, wired: what a run and a served cell have in common."""
 
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from depal.cell.controller import Controller
 from depal.cell.feedback import Feedback
 from depal.cell.halting import HaltingArm
-from depal.cell.planning.desk import Desk
+from depal.cell.planning.desk import Desk, MotionDesk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
@@ -67,8 +67,25 @@ class Assembly:
     times: Timekeeper
 
 
-def assemble(wiring: Wiring, ports: Ports) -> Assembly:
-    """Wires a controller to the ports of a cell."""
+DeskOf = Callable[[Wiring, Workplace, Timekeeper], Desk]
+"""Makes what plans the motions."""
+
+
+def motion_desk(wiring: Wiring, work: Workplace, times: Timekeeper) -> Desk:
+    """The desk that plans for a real arm."""
+    stopwatch = time.perf_counter
+    planner = Planner(work, times, cone=wiring.cone, seed=wiring.seed, stopwatch=stopwatch)
+    return MotionDesk(work, planner)
+
+
+def assemble(wiring: Wiring, ports: Ports, desk_of: DeskOf = motion_desk) -> Assembly:
+    """Wires a controller to the ports of a cell.
+
+    Args:
+        wiring: what it is wired from.
+        ports: of the cell.
+        desk_of: makes its planning desk.
+    """
     times = Timekeeper(ports.clock)
     sight = ports.sight
     ports = timed(ports, times)
@@ -78,8 +95,7 @@ def assemble(wiring: Wiring, ports: Ports) -> Assembly:
     work = Workplace(
         wiring.layout, wiring.told, ports, wiring.settings, questions, wiring.impossible
     )
-    planner = Planner(work, times, cone=wiring.cone, seed=wiring.seed, stopwatch=time.perf_counter)
-    desk = Desk(work, planner)
+    desk = desk_of(wiring, work, times)
     halting.bind(work, desk)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)

@@ -16,7 +16,6 @@ from depal.app.serve.result import result_of
 from depal.app.serve.seeing import Seen
 from depal.cell.departures import Departure, Fate
 from depal.cell.ledger import Found, Ledger, page_of, restore
-from depal.cell.planning.timing import Timing
 from depal.cell.recovery import Recovery
 from depal.cell.reporting import ChoiceNote
 from depal.cell.tasks import read_shipped_tasks
@@ -260,8 +259,7 @@ class Session:
         """From the next selection and the next motion on."""
         work = self.wired.work
         work.settings = cell_settings(settings)
-        timing = self.wired.desk.planner.timing
-        self.wired.desk.planner.timing = Timing(timing.layout, settings.speed, timing.cone)
+        self.wired.desk.pace(settings.speed)
 
     # What happens
 

@@ -10,7 +10,7 @@ from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
-from depal.cell.primitives.feeling import lifted_from, seals, sucked, under_cups
+from depal.cell.primitives.feeling import seals, sucked
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Recognition
@@ -79,7 +79,7 @@ class Taking:
         if not came:
             self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
-        lift = lifted_from(self._desk, plan)
+        lift = self._desk.feeling.lift(plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
         await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
@@ -109,7 +109,7 @@ class Taking:
         """Where some cups seal and others do not, no one face is under all of them."""
         named = isinstance(plan.box, Recognition)
         if self._work.pile.remembered and not named and seals(self._work):
-            self._work.feedback.part(under_cups(self._work, self._desk, plan))
+            self._work.feedback.part(self._desk.feeling.under_cups(plan))
 
     def _wrong_weight(self, plan: PickPlan, mass: float) -> str | None:
         """What hangs on the arm is nothing, too much, or more than one box."""

@@ -1,0 +1,7 @@
+"""The real controller over a light world: runs by the thousand, with controllers that end."""
+
+from depal.app.light.cuts import Cut, Kind, Moment
+from depal.app.light.referee import Count
+from depal.app.light.run import LightJob, LightOutcome, run_light
+
+__all__ = ["Count", "Cut", "Kind", "LightJob", "LightOutcome", "Moment", "run_light"]

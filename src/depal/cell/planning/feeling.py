@@ -1,0 +1,72 @@
+"""The small motions with which the gripper feels for a face that is not quite where it looked."""
+
+import numpy as np
+
+from depal.cell.planning.planner import Planner
+from depal.cell.planning.plans import PickPlan
+from depal.cell.planning.promises import Promises
+from depal.cell.planning.timing import rebased
+from depal.cell.workplace import Workplace
+from depal.geometry import OrientedBox, Pose
+from depal.motion.moves import CLOSE, Kind, Part
+from depal.motion.moves.picking import into_face
+from depal.motion.planning.straight import straight
+from depal.ports import Trajectory
+
+FINE = 0.003
+"""Of the paths [m]."""
+
+THIN = 0.002
+"""A flat place is so deep [m]."""
+
+
+class Feeling:
+    """Plans around the plane of touch."""
+
+    def __init__(self, work: Workplace, planner: Planner, promises: Promises) -> None:
+        """At the boxes of this cell."""
+        self._work = work
+        self._planner = planner
+        self._promises = promises
+
+    def nearer(self, plan: PickPlan, way: float) -> Trajectory | None:
+        """Straight along the approach by so much [m]; None where something is in the way."""
+        planner, work = self._planner, self._work
+        kinematics = planner.mover.body.kinematics
+        x, y, z = into_face(kinematics.flange(planner.here), plan.grasp, work.layout)
+        path = straight(kinematics, planner.here, (x * way, y * way, z * way), pitch=FINE)
+        if path is None:
+            return None
+        scene = self._promises.scene(work.pile, without=plan.box.id)
+        checker = planner.mover.checker(scene, CLOSE, folded=plan.grasp.folded)
+        if way > 0.0 and checker.first_hit(path) is not None:
+            return None
+        return planner.timing.slowly(Part(Kind.STRAIGHT, path, touching=True))
+
+    def lift(self, plan: PickPlan) -> Trajectory:
+        """The plan's lift from where the cups have sealed."""
+        planner, part = self._planner, plan.pick.lift
+        if np.allclose(planner.here, part.path[0], atol=1e-4):
+            return plan.lift
+        path = rebased(part.path, planner.here)
+        return planner.timing.slowly(Part(part.kind, path, part.touching)) or plan.lift
+
+    def under_cups(self, plan: PickPlan) -> OrientedBox:
+        """The flat place that the plan's cups touch where the arm stands, in the cell frame."""
+        tool, folded = self._work.layout.tool, plan.grasp.folded
+        flange = self._planner.mover.body.kinematics.flange(self._work.ports.arm.joints())
+        faces = {
+            module.name: (module, flange @ tool.module(module.name, folded=folded).flange_from_face)
+            for module in tool.modules
+        }
+        first = faces[plan.grasp.cups[0][0]][1]
+        points = []
+        for name, index in plan.grasp.cups:
+            module, face = faces[name]
+            points.append(first.inverse.apply(face.apply((0.0, *module.cups[index]))))
+        low, high = np.min(points, axis=0), np.max(points, axis=0)
+        radius = tool.suction.cup_radius
+        x, y, z = ((low + high) / 2).tolist()
+        _, wide, tall = (high - low + 2 * radius).tolist()
+        middle = Pose(first.apply((x, y, z)), first.rotation)
+        return OrientedBox(middle, (THIN, wide, tall))
