@@ -16,7 +16,6 @@ from depal.app.serve.result import result_of
 from depal.app.serve.seeing import Seen
 from depal.cell.departures import Departure, Fate
 from depal.cell.ledger import Found, Ledger, page_of, restore
-from depal.cell.planning.timing import Timing
 from depal.cell.recovery import Recovery
 from depal.cell.reporting import ChoiceNote
 from depal.cell.tasks import read_shipped_tasks
@@ -141,6 +140,7 @@ class Session:
             store=around.store,
             sight=around.seen.sight,
             clock=around.clock,
+            override=world.override,
         )
 
     def _bind(self) -> None:
@@ -260,8 +260,8 @@ class Session:
         """From the next selection and the next motion on."""
         work = self.wired.work
         work.settings = cell_settings(settings)
-        timing = self.wired.desk.planner.timing
-        self.wired.desk.planner.timing = Timing(timing.layout, settings.speed, timing.cone)
+        planner = self.wired.desk.planner
+        planner.timing = replace(planner.timing, speed=settings.speed)
 
     # What happens
 

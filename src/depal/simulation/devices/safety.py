@@ -23,7 +23,7 @@ class Visit:
     def fields_at(self, now: float) -> tuple[bool, bool]:
         """Whether they stand in the warning field, and in the protective field."""
         share = (now - self.came) / self.lasts
-        return 0.0 <= share < 1.0, self.inside and 1 / 3 <= share < 2 / 3  # noqa: PLR2004 - thirds
+        return 0.0 <= share < 1.0, self.inside and 1 / 3 <= share < 2 / 3
 
 
 class SimulatedSafety:
