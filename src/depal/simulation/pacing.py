@@ -22,8 +22,8 @@ where it brings the arm to rest."""
 QUICKEST = 10.0
 """The rate changes no faster than this, also where the axes stand [1/s]."""
 
-SPARE = 0.97
-"""The tool stays below this share of its limit, for servos have a lag."""
+SPARE = 0.88
+"""So much of its limit is asked for: servos overshoot by a tenth where an acceleration ends."""
 
 Speeds = Callable[[Floats], Floats]
 """From (n, 6) configurations [rad] to (n, k, 3) points of the tool [m]."""
@@ -78,7 +78,8 @@ def _allowed(points: Floats, pitch: float, most: float) -> Floats:
     """(n,) the greatest rate at each place of the grid, 1 at the most."""
     ways = np.linalg.norm(np.diff(points, axis=0), axis=2).max(axis=1) / pitch
     speeds = np.maximum(np.append(ways, 0.0), np.append(0.0, ways))
-    return np.minimum(1.0, SPARE * most / np.maximum(speeds, 1e-9))
+    allowed: Floats = np.minimum(1.0, SPARE * most / np.maximum(speeds, 1e-9))
+    return allowed
 
 
 def _in_time(grid: Floats, rates: Floats, change: Floats, period: float) -> tuple[Floats, Floats]:

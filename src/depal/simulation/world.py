@@ -174,7 +174,8 @@ class World:
         faces = [tool.module(each.name, folded=folded).flange_from_face for each in tool.modules]
         tips = np.array([(0.0, 0.0, 0.0), *(face.translation for face in faces)])
         frames = np.array([self._kinematics.frames(row)[6] for row in joints])
-        return np.einsum("nij,kj->nki", frames[:, :, :3], tips) + frames[:, None, :, 3]
+        turned: Floats = np.einsum("nij,kj->nki", frames[:, :, :3], tips)
+        return turned + frames[:, None, :, 3]
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
