@@ -62,6 +62,7 @@ async def emptied(world: RemoteWorld) -> tuple[Assembly, Truth]:
             store=store,
             sight=world.truth_sight,
             clock=LoopClock(),
+            override=world.override,
         )
         journal = MemoryJournal()
         wired = assemble(Wiring(LAYOUT, DELIVERY, Settings(), read_shipped_tasks(), journal), ports)

@@ -39,6 +39,7 @@ from depal.ports.fakes import (
     FakeArm,
     FakeBays,
     FakeGripper,
+    FakeOverride,
     FakePerson,
     FakeReader,
     FakeSafety,
@@ -160,6 +161,7 @@ class Cell:
             self.store,
             self.sight,
             clock,
+            FakeOverride(),
         )
         ports = timed(ports, self.times)
         questions = Questions(ports.person, clock)

@@ -63,10 +63,12 @@ def repositories(draw: st.DrawFn) -> Repository:
         return Step(name, draw(CALLS), draw(CONDITIONS))
 
     def task(name: str, *steps: Step, keeps: tuple[str, ...] = ()) -> Task:
-        return Task(name, BOTH, steps, draw(CONDITIONS), draw(CONDITIONS), keeps)
+        until, when, within = (draw(CONDITIONS) for _ in range(3))
+        return Task(name, BOTH, steps, until, when, keeps, within=within)
 
     def action(name: str) -> Action:
-        return Action(name, BOTH, draw(CONDITIONS), draw(CONDITIONS))
+        until, when, within = (draw(CONDITIONS) for _ in range(3))
+        return Action(name, BOTH, until, when, within=within)
 
     schemata = [
         task("root", step("sub"), step("left"), step("sub"), step("right")),
@@ -114,5 +116,7 @@ def test_gates_are_what_a_sweep_says_whatever_the_task(
             swept = [standing.gate for standing in state.standings(tree)]
             assert [node.gate for node in tree.nodes] == swept
             assert [node.gate for node in again.trees[number].nodes] == swept
+            kept = [standing.kept for standing in state.standings(tree)]
+            assert [node.kept for node in tree.nodes] == kept
             for node in tree.nodes:
                 assert state.waiting.waits(node) == (node.gate and node.node.concrete)

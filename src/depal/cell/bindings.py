@@ -4,6 +4,7 @@ from collections.abc import Mapping
 
 from depal.cell.guards import Guards
 from depal.cell.planning.desk import Desk
+from depal.cell.primitives.bounding import Bounding
 from depal.cell.primitives.checking import Checking
 from depal.cell.primitives.exchanging import Exchanging
 from depal.cell.primitives.leaving import Leaving
@@ -49,5 +50,7 @@ def bindings(
         "ask_decision": minding.ask_decision,
         "carry_on": minding.carry_on,
     }
+    bounding = Bounding(work, desk, guards)
+    primitives = {name: bounding.wrap(primitive) for name, primitive in primitives.items()}
     probes: dict[str, Primitive] = {"arm": taking.probe_arm, "gripper": taking.probe_gripper}
     return primitives, probes

@@ -7,6 +7,7 @@ from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
+from depal.cell.safety import SafetyWatch
 from depal.cell.workplace import PALLET, Workplace
 from depal.domain import Request
 from depal.executive import events as ev
@@ -51,6 +52,7 @@ class Controller:
             engine or Engine(tasks), journal, work.ports.clock, primitives, probes
         )
         work.bind(self.runtime)
+        self.safety = SafetyWatch(work)
         self._notes = notes
         self._ended = asyncio.Event()
         self._answers = Answers(work, desk.promises, self._end_if_done)
@@ -68,14 +70,19 @@ class Controller:
         await self.finish()
 
     def begin(self) -> None:
-        """Allocates `depalletize`, unless it is allocated."""
+        """Allocates `depalletize`, unless it is allocated; the safety inputs are read before."""
+        self.safety.look()
         trees = self.runtime.engine.state.trees.values()
         if not any(tree.root.node.schema.name == EMPTY for tree in trees):
             self.runtime.allocate(Call(EMPTY, (PALLET,)))
 
     async def finish(self) -> None:
         """Waits until the pallet is empty and everything that was begun has ended."""
-        await self._ended.wait()
+        watching = asyncio.create_task(self.safety.keep())
+        try:
+            await self._ended.wait()
+        finally:
+            watching.cancel()
         await self.work.outbox.emptied(PATIENCE)
         await self.runtime.close()
 
@@ -83,6 +90,8 @@ class Controller:
         """Every step of the executive: notes it, and answers faults once the step is over."""
         self._notes.heard(last, events)
         self._answers.hear(events)
+        if any(isinstance(event, ev.Changed) for event in events):
+            self.work.bounds.refresh()
         loop = asyncio.get_running_loop()
         for event in events:
             if isinstance(event, ev.Ended):

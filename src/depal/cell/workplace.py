@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 
+from depal.cell.bounds import Bounds
 from depal.cell.charges import Charges
 from depal.cell.departures import Departure, Departures, Fate
 from depal.cell.feedback import Feedback
@@ -39,6 +40,7 @@ from depal.ports import (
     Bays,
     Clock,
     Gripper,
+    Override,
     Person,
     Safety,
     Sight,
@@ -65,6 +67,7 @@ class Ports:
     store: StoreSystem
     sight: Sight
     clock: Clock
+    override: Override
 
 
 class Policy(Enum):
@@ -187,6 +190,7 @@ class Workplace:
         keep: writes what must not be forgotten; called before and after every such step.
         gate: closed while no further box is to be begun.
         plans: closed after a restart until the arm stands where plans can begin.
+        bounds: what the arm may not exceed.
     """
 
     layout: CellLayout
@@ -196,6 +200,7 @@ class Workplace:
     questions: Questions
     impossible: Mapping[Gtin, str] = field(default_factory=dict)
     pile: Pile = field(init=False)
+    bounds: Bounds = field(init=False)
     outbox: Outbox = field(init=False)
     wishes: Wishes = field(default_factory=lambda: Wishes(()))
     departures: Departures = field(default_factory=Departures)
@@ -220,6 +225,7 @@ class Workplace:
     def __post_init__(self) -> None:
         """The pile stands on the cell's pallet."""
         self.outbox = Outbox(self.ports.store)
+        self.bounds = Bounds(self.ports.override)
         self.pile = Pile(Deck.of(self.layout.pallet.cell_from_pallet))
 
     def bind(self, runtime: Runtime) -> None:

@@ -112,11 +112,13 @@ class SpeedLimits:
         flange: speed of the flange in free space [m/s].
         straight: speed in straight moves near boxes [m/s].
         set_down: speed of the last part of setting a box down [m/s].
+        near: speed of flange and tool while somebody is near [m/s].
     """
 
     flange: float
     straight: float
     set_down: float
+    near: float = 0.25
 
 
 @dataclass(frozen=True, slots=True)

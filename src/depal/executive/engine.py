@@ -12,6 +12,7 @@ from typing import NamedTuple
 from depal.errors import Problem, TaskError, did_you_mean
 from depal.executive import events as ev
 from depal.executive.arbitration import arbitrate
+from depal.executive.closing import closed_by
 from depal.executive.commands import Command, Probe, Start, Stop
 from depal.executive.conditions import key_of
 from depal.executive.declared import Declared
@@ -214,7 +215,7 @@ class Engine:
             for attempt in list(state.overdue.values()):
                 self._stop(attempt, TIMED_OUT, at, events, commands)
             for attempt in list(state.orphans.values()):
-                self._stop(attempt, "no longer enabled", at, events, commands)
+                self._stop(attempt, closed_by(attempt.node), at, events, commands)
         if state.touched:
             touched = sorted(state.touched)
             state.touched.clear()

@@ -58,11 +58,11 @@ class Evaluation:
         raise NotImplementedError
 
     def _keeper_opened(self, node: LiveNode) -> None:
-        """The gate of a task that keeps resources has opened."""
+        """A task that keeps resources may begin to."""
         raise NotImplementedError
 
     def _keeper_closed(self, node: LiveNode) -> None:
-        """The gate of a task that keeps resources has closed."""
+        """A task that keeps resources must let them go."""
         raise NotImplementedError
 
     def _fact_emptied(self, key: Key) -> None:

@@ -10,8 +10,8 @@ class Holdings:
     """The units of every resource.
 
     A running primitive uses one unit of each resource that it claims. A task that keeps a
-    resource holds one unit from the first use inside it until its gate closes; users inside a
-    keeper use the keeper's unit.
+    resource holds one unit from the first use inside it until it is accomplished or disabled; while
+    only `within` does not hold it keeps it. Users inside a keeper use the keeper's unit.
     """
 
     def __init__(self, resources: Mapping[str, Resource]) -> None:
@@ -91,7 +91,7 @@ class Holdings:
             self._recount(resource)
 
     def keep_again(self, node: LiveNode) -> None:
-        """A task's gate has opened again: it keeps what a primitive inside still uses."""
+        """A task is kept again: it keeps what a primitive inside still uses."""
         schema = node.node.schema
         if isinstance(schema, Task):
             for resource in schema.keeps:
@@ -106,7 +106,7 @@ class Holdings:
             self._users[resource].pop(attempt, None)
 
     def stop_keeping(self, node: LiveNode) -> None:
-        """A task's gate has closed."""
+        """A task is accomplished, disabled or withdrawn."""
         schema = node.node.schema
         if isinstance(schema, Task):
             for resource in schema.keeps:

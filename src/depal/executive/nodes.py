@@ -45,6 +45,11 @@ class LiveNode:
         """Whether it may run."""
         return self.tree.gates.open >> self.place[1] & 1 == 1
 
+    @property
+    def kept(self) -> bool:
+        """Whether it could run if all held that must hold throughout."""
+        return self.tree.gates.kept >> self.place[1] & 1 == 1
+
     def is_within(self, ancestor: "LiveNode") -> bool:
         """Whether it is that node or stands below it."""
         here: LiveNode | None = self

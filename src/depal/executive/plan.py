@@ -26,18 +26,20 @@ class Gates:
 
     Attributes:
         open: the nodes that may run.
-        awake: the nodes whose parent may run, and the root; below the others nothing can run.
+        kept: the nodes that could if all held that must hold throughout.
+        awake: the nodes whose parent is kept, and the root; below the others nothing can run.
         accomplished: the nodes whose postcondition holds; certain for those that are awake.
         needed: the atoms that awake nodes mention.
     """
 
     open: int
+    kept: int
     awake: int
     accomplished: int
     needed: int
 
 
-SHUT = Gates(0, 0, 0, 0)
+SHUT = Gates(0, 0, 0, 0, 0)
 """Of a tree of which nothing may run any more."""
 
 
@@ -49,14 +51,16 @@ class Part:
         bit: the set of this node alone.
         parent: the set of its parent alone; empty for the root.
         pre: the preconditions of its edge and of its schema.
+        within: what must hold as long as anything of it runs.
         post: its postcondition.
-        mentioned: the atoms of both.
+        mentioned: the atoms of all.
         decisive: the atoms of `post`.
     """
 
     bit: int
     parent: int
     pre: Formula
+    within: Formula
     post: Formula
     mentioned: int
     decisive: int
@@ -71,8 +75,8 @@ class Plan:
         atoms: of its conditions.
         parts: one a node.
         own: the atoms that are always watched; the others are watched while they are needed.
-        noticed: the nodes that do something when their gate moves: primitives and keepers.
-        concrete: the nodes that are primitives.
+        keepers: the nodes that do something when they are kept or no more.
+        concrete: the nodes that are primitives; they do something when their gate moves.
         timed: its time conditions, inner ones first: the condition, the node that mentions it and
             whether its edge does.
     """
@@ -95,10 +99,10 @@ class Plan:
         self.own = sum(1 << number for number, atom in enumerate(self.atoms) if atom.own)
         self.concrete = sum(1 << node.index for node in nodes if node.concrete)
         keepers = (n for n in nodes if isinstance(n.schema, Task) and n.schema.keeps)
-        self.noticed = self.concrete | sum(1 << node.index for node in keepers)
+        self.keepers = sum(1 << node.index for node in keepers)
         self._words = filled(atoms.words)
         self._known: dict[int, Gates] = {}
-        self._moves: dict[tuple[int, int], list[tuple[int, bool, bool]]] = {}
+        self._moves: dict[tuple[int, int, int, int], list[tuple[int, bool, bool]]] = {}
 
     def subject(self, args: Sequence[str], spans: Sequence[Span]) -> Subject:
         """What the tree with these arguments and time conditions is about."""
@@ -116,38 +120,49 @@ class Plan:
         return known
 
     def moves(self, before: Gates, after: Gates) -> list[tuple[int, bool, bool]]:
-        """The gates that move and are noticed: the node, whether it opens, whether it is concrete.
+        """What moves and is noticed: the node, whether it opens, whether it is concrete.
 
-        Parents come before their children.
+        Of primitives it is the gate; of keepers, whether they are kept. Parents come before their
+        children.
         """
-        known = self._moves.get((before.open, after.open))
+        change = before.open, before.kept, after.open, after.kept
+        known = self._moves.get(change)
         if known is None:
             if len(self._moves) >= ROOM:
                 self._moves.clear()
-            known = [
-                (index, after.open >> index & 1 == 1, self.concrete >> index & 1 == 1)
-                for index in members((before.open ^ after.open) & self.noticed)
+            moved = (before.open ^ after.open) & self.concrete
+            moved |= (before.kept ^ after.kept) & self.keepers
+            now = after.open & self.concrete | after.kept & self.keepers
+            known = self._moves[change] = [
+                (index, now >> index & 1 == 1, self.concrete >> index & 1 == 1)
+                for index in members(moved)
             ]
-            self._moves[before.open, after.open] = known
         return known
 
     def _worked_out(self, true: int) -> Gates:
-        opened = awake = accomplished = needed = 0
+        opened = kept = awake = accomplished = needed = 0
         for part in self.parts:
             if part.post(true):
                 accomplished |= part.bit
-            if part.parent and not opened & part.parent:
+            if part.parent and not kept & part.parent:
                 continue
             awake |= part.bit
             needed |= part.mentioned
             if part.pre(true) and not accomplished & part.bit:
-                opened |= part.bit
-        return Gates(opened, awake, accomplished, needed)
+                kept |= part.bit
+                if part.within(true) and (not part.parent or opened & part.parent):
+                    opened |= part.bit
+        return Gates(opened, kept, awake, accomplished, needed)
 
 
 def _time_conditions(node: Node, atoms: Atoms) -> list[tuple[Lasting, int, bool]]:
     """Those that a node is the first to mention."""
-    own = [*lasting_of(node.schema.when), *lasting_of(node.schema.until)]
+    schema = node.schema
+    own = [
+        *lasting_of(schema.when),
+        *lasting_of(schema.within),
+        *lasting_of(schema.until),
+    ]
     found = [(lasting, node.index, False) for lasting in own if atoms.time(lasting, node.binding)]
     found += [
         (lasting, node.index, True)
@@ -160,13 +175,15 @@ def _time_conditions(node: Node, atoms: Atoms) -> list[tuple[Lasting, int, bool]
 def _part(node: Node, atoms: Atoms) -> Part:
     edge, on_edge = atoms.read(node.edge, node.edge_binding)
     own, on_own = atoms.read(node.schema.when, node.binding)
+    within, throughout = atoms.read(node.schema.within, node.binding)
     post, decisive = atoms.read(node.schema.until, node.binding)
     parent = 1 << node.parent if node.parent >= 0 else 0
     return Part(
         1 << node.index,
         parent,
         lambda true: edge(true) and own(true),
+        within,
         post,
-        on_edge | on_own | decisive,
+        on_edge | on_own | throughout | decisive,
         decisive,
     )

@@ -17,6 +17,7 @@ from depal.executive.conditions import Key, Value
 from depal.executive.engine import Call, Engine, Report, Step
 from depal.executive.events import Change, Outcome, encode
 from depal.executive.journal import Entry, Journal
+from depal.executive.limits import Limits, limits_on
 from depal.executive.schema import Action, Cancel
 from depal.executive.snapshot import freeze
 
@@ -38,6 +39,7 @@ class Context:
         args: the things that its parameters stand for, by parameter.
         facts: what is the case now; for reading.
         stop_reason: why it is to stop, None while it is not.
+        limits: tells what it must not exceed now [SI], quantity by quantity.
     """
 
     attempt: int
@@ -45,6 +47,7 @@ class Context:
     args: Mapping[str, str]
     facts: Mapping[Key, Value]
     stop_reason: str | None = field(default=None)
+    limits: Callable[[], Limits] = field(default=dict)
 
     async def checkpoint(self) -> None:
         """A moment at which the primitive may be broken off.
@@ -214,9 +217,16 @@ class Runtime:
     ) -> None:
         names = (param.name for param in action.params)
         facts = MappingProxyType(self.engine.state.facts)
-        context = Context(attempt, action, dict(zip(names, args, strict=True)), facts)
+        given = dict(zip(names, args, strict=True))
+        context = Context(attempt, action, given, facts, None, lambda: self._limits_on(attempt))
         task = asyncio.get_running_loop().create_task(self._run(context, function, probing=probing))
         self._running[attempt] = (task, context)
+
+    def _limits_on(self, attempt: int) -> Limits:
+        """What an attempt must not exceed now; one that has ended moves nothing."""
+        state = self.engine.state
+        known = state.attempts.get(attempt)
+        return {} if known is None else limits_on(known.node, state.facts)
 
     async def _run(self, context: Context, function: Primitive, *, probing: bool) -> None:
         try:

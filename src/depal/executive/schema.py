@@ -76,6 +76,22 @@ class Param:
 
 
 @dataclass(frozen=True, slots=True)
+class Limit:
+    """`limit speed 0.25 m/s`: what no primitive below may exceed.
+
+    Attributes:
+        quantity: its name; which ones there are, the primitives know.
+        most: a number in its unit, or a fact that holds one in SI units; while the fact is empty
+            nothing is limited.
+        unit: as written, a key of UNITS; empty behind a fact.
+    """
+
+    quantity: str
+    most: float | FactRef
+    unit: str = ""
+
+
+@dataclass(frozen=True, slots=True)
 class Step:
     """One element of l: a subtask and its precondition.
 
@@ -105,6 +121,9 @@ class Task:
         keeps: resources that, once a descendant has held them, no other tree gets until the
             task is accomplished or disabled.
         comment: what it is for, without the hash.
+        within: holds as long as anything below runs. Otherwise nothing below starts, what runs is
+            asked to stop as its `cancel` says, and the task keeps what it keeps.
+        limits: what no primitive below may exceed.
     """
 
     name: str
@@ -114,6 +133,8 @@ class Task:
     when: Condition = ALWAYS
     keeps: tuple[str, ...] = ()
     comment: str = ""
+    within: Condition = ALWAYS
+    limits: tuple[Limit, ...] = ()
 
 
 class Cancel(Enum):
@@ -142,6 +163,8 @@ class Action:
         probe: the name of the probe that finds out, after a restart, what it has done.
         idempotent: whether it may be sent again with the same attempt.
         comment: what it does, without the hash.
+        within: holds as long as it runs, as for a task.
+        limits: what it may not exceed.
     """
 
     name: str
@@ -157,6 +180,8 @@ class Action:
     probe: str | None = None
     idempotent: bool = False
     comment: str = ""
+    within: Condition = ALWAYS
+    limits: tuple[Limit, ...] = ()
 
 
 Schema = Task | Action

@@ -127,7 +127,11 @@ class State(Evaluation):
 
     def _primitive_opened(self, node: LiveNode) -> None:
         if node.attempt is not None:
-            self.orphans.pop(node.attempt, None)
+            attempt = self.attempts[node.attempt]
+            self.orphans.pop(attempt.number, None)
+            if attempt.cancel is None and node.action.timeout is not None:
+                # Time in which it may not go on is not its own.
+                self.set_deadline(attempt, self.now + node.action.timeout)
         self.wait(node)
 
     def _primitive_closed(self, node: LiveNode) -> None:
@@ -198,6 +202,8 @@ class State(Evaluation):
 
     def _late(self, attempt: Attempt) -> None:
         attempt.deadline = None
+        if attempt.cancel is None and attempt.node.kept and not attempt.node.gate:
+            return  # it is suspended, and has its whole time again when it may go on
         if attempt.cancel is None:
             self.overdue[attempt.number] = attempt
         else:

@@ -96,16 +96,20 @@ class Standing:
 
     Attributes:
         pre: the edge's precondition and the schema's own hold.
+        within: what must hold as long as anything of it runs does hold.
         post: the postcondition holds.
-        live: all preconditions along the branch hold.
+        live: all preconditions along the branch hold, and all that must hold there throughout.
         gate: live, not accomplished, and the parent's gate is open: it may run.
+        kept: its gate would be open if all held that must hold throughout: it keeps what it keeps.
         state: what is shown.
     """
 
     pre: bool
+    within: bool
     post: bool
     live: bool
     gate: bool
+    kept: bool
     state: NodeState
 
 
@@ -198,11 +202,14 @@ def sweep(tree: Tree, facts: Facts, lasted: Lasted) -> list[Standing]:
         pre = holds(node.edge, facts, node.edge_binding, lasted) and holds(
             node.schema.when, facts, binding, lasted
         )
+        within = holds(node.schema.within, facts, binding, lasted)
         post = holds(node.schema.until, facts, binding, lasted)
         parent = standings[node.parent] if node.parent >= 0 else None
-        live = pre and (parent is None or parent.live)
+        live = pre and within and (parent is None or parent.live)
         gate = live and not post and (parent is None or parent.gate)
-        standings.append(Standing(pre, post, live, gate, state_of(live=live, post=post)))
+        kept = pre and not post and (parent is None or parent.kept)
+        state = state_of(live=live, post=post)
+        standings.append(Standing(pre, within, post, live, gate, kept, state))
     return standings
 
 

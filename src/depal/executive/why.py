@@ -97,6 +97,7 @@ def _along_the_branch(state: State, node: LiveNode) -> list[Culprit]:
         above = here.parent.node.label if here.parent else plain.label
         _blame(state, plain.edge, plain.edge_binding, f"{plain.label} in {above}", found)
         _blame(state, plain.schema.when, plain.binding, plain.label, found)
+        _blame(state, plain.schema.within, plain.binding, f"within of {plain.label}", found)
         here = here.parent
     return found
 

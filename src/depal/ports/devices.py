@@ -77,6 +77,20 @@ class Arm(Protocol):
         ...
 
 
+class Override(Protocol):
+    """The override of the arm's own controller: how fast a motion is gone through."""
+
+    def limit(self, speed: float) -> None:
+        """From now on flange and tool are no faster than this, in this motion and in all others.
+
+        A motion keeps its path, and goes on by itself when the limit is taken back.
+
+        Args:
+            speed: [m/s]; infinite for as fast as planned, 0 to stand still on the path.
+        """
+        ...
+
+
 class Gripper(Protocol):
     """The suction gripper."""
 
@@ -161,10 +175,21 @@ class SafetyState:
     Attributes:
         stopped: an emergency stop or a protective stop is active.
         gate_open: somebody may be inside.
+        near: somebody is in the scanner's warning field: the arm has to be slow.
+        inside: somebody is in its protective field: nothing may move.
+        read: when the controller was last heard [s]; None for just now.
     """
 
     stopped: bool
     gate_open: bool
+    near: bool = False
+    inside: bool = False
+    read: float | None = None
+
+    @property
+    def tripped(self) -> bool:
+        """Whether only a person's start lets anything move again."""
+        return self.stopped or self.gate_open
 
 
 class Safety(Protocol):

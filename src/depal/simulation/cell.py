@@ -97,7 +97,7 @@ def build(  # noqa: PLR0913 - each is a choice of its own
     stack = delivery.stack if delivery.stack is not None else stacked(delivery)
     time = clock or LoopClock()
     world = kind(layout, cases_of(delivery, stack, layout), seed, start)
-    safety, stage = SimulatedSafety(), Stage(world)
+    safety, stage = SimulatedSafety(time.now), Stage(world)
     shutter = Shutter(stage)
     return SimulatedCell(
         world,

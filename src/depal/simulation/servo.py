@@ -10,6 +10,9 @@ from depal.ports.trajectory import Trajectory
 
 Floats = npt.NDArray[np.float64]
 
+WHOLE = 1e-9
+"""Nearer than this to its end a motion has come to its end [s]."""
+
 SHORTEST_STOP = 0.008
 """Coming to rest takes this long at least [s]."""
 
@@ -21,7 +24,8 @@ class Motion:
     Attributes:
         trajectory: what it was made of.
         first: the step in which it begins.
-        path: (n,) times along the trajectory [s]; they rise slower while it is being stopped.
+        path: (n,) times along the trajectory [s]; they rise slower while it is slowed or stopped.
+        rates: (n,) how fast these rise; 1 as planned.
         positions: (n, 6) [rad].
         velocities: (n, 6) [rad/s].
         accelerations: (n, 6) from each row to the next [rad/s^2].
@@ -30,9 +34,15 @@ class Motion:
     trajectory: Trajectory
     first: int
     path: Floats
+    rates: Floats
     positions: Floats
     velocities: Floats
     accelerations: Floats
+
+    @property
+    def whole(self) -> bool:
+        """Whether it goes to the trajectory's end, not only to a rest before it."""
+        return float(self.path[-1]) >= self.trajectory.duration - WHOLE
 
     @property
     def last(self) -> int:
@@ -52,7 +62,7 @@ def motion_along(trajectory: Trajectory, first: int, period: float) -> Motion:
     """The motion that follows a trajectory from the step `first` on, steps of `period` [s]."""
     count = int(np.ceil(trajectory.duration / period - 1e-9)) + 1
     path = np.minimum(np.arange(count) * period, trajectory.duration)
-    return _motion(trajectory, first, path, np.ones(count), period)
+    return made_of(trajectory, first, path, np.ones(count), period)
 
 
 def stopped(motion: Motion, step: int, period: float, limits: JointLimits) -> Motion:
@@ -61,23 +71,33 @@ def stopped(motion: Motion, step: int, period: float, limits: JointLimits) -> Mo
     The path's rate falls evenly; it falls as slowly as the accelerations of the axes ask for.
     """
     row = motion.row(step)
-    start, rates = float(motion.path[row]), np.abs(motion.velocities[row])
+    start, rate_now = float(motion.path[row]), float(motion.rates[row])
+    rates = np.abs(motion.velocities[row])
     time = max(float(np.max(rates / np.array(limits.acceleration))), SHORTEST_STOP)
     count = int(np.ceil(time / period))
     u = np.arange(1, count + 1) / count
-    ahead = start + count * period * (u - u**2 / 2)
+    ahead = start + rate_now * count * period * (u - u**2 / 2)
     inside = ahead < motion.trajectory.duration
     path = np.concatenate((motion.path[: row + 1], np.minimum(ahead, motion.trajectory.duration)))
-    rate = np.concatenate((np.ones(row + 1), np.where(inside, 1 - u, 0.0)))
-    return _motion(motion.trajectory, motion.first, path, rate, period)
+    rate = np.concatenate((motion.rates[: row + 1], np.where(inside, rate_now * (1 - u), 0.0)))
+    return made_of(motion.trajectory, motion.first, path, rate, period)
 
 
-def _motion(
+def made_of(
     trajectory: Trajectory, first: int, path: Floats, rate: Floats, period: float
 ) -> Motion:
+    """The motion along a trajectory at these times along it, one a step.
+
+    Args:
+        trajectory: what is followed.
+        first: the step of the first row.
+        path: (n,) times along it [s].
+        rate: (n,) how fast they rise.
+        period: of a step [s].
+    """
     positions, velocities = sampled(trajectory, path, rate)
     accelerations = np.diff(velocities, axis=0, append=velocities[-1:]) / period
-    return Motion(trajectory, first, path, positions, velocities, accelerations)
+    return Motion(trajectory, first, path, rate, positions, velocities, accelerations)
 
 
 def sampled(trajectory: Trajectory, path: Floats, rate: Floats) -> tuple[Floats, Floats]:

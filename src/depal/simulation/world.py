@@ -1,5 +1,7 @@
 """The simulated world: one MuJoCo model and its state, advanced as far as somebody asks."""
 
+import math
+
 import mujoco
 import numpy as np
 import numpy.typing as npt
@@ -7,6 +9,7 @@ import numpy.typing as npt
 from depal.domain import CellLayout, Joints
 from depal.errors import DeviceError
 from depal.geometry import Pose
+from depal.motion.kinematics import Kinematics
 from depal.ports import Watch
 from depal.ports.trajectory import Trajectory
 from depal.simulation.cases import Case
@@ -14,6 +17,7 @@ from depal.simulation.contacts import ContactWatch
 from depal.simulation.holds import Broken
 from depal.simulation.losses import LossWatch
 from depal.simulation.model import STEP, build_model
+from depal.simulation.pacing import paced
 from depal.simulation.parts import ARM_DAMPING, ARM_INERTIA, ARM_STIFFNESS, BODY, SOLID
 from depal.simulation.servo import Motion, motion_along, stopped
 from depal.simulation.snapshot import Snapshot
@@ -92,6 +96,8 @@ class World:
         self._noise = np.random.default_rng([seed, 1])
         self._motion = motion_along(_standing(joints or layout.robot.parked), 0, STEP)
         self._watch, self._stopping = Watch(), False
+        self._most = math.inf
+        self._kinematics = Kinematics(layout.robot)
         self._show_fold()
         self._settle()
 
@@ -131,6 +137,20 @@ class World:
         self.wake()
         self._motion = motion_along(trajectory, self._tick, STEP)
         self._watch, self.seen, self._stopping = watch or Watch(), None, False
+        if math.isfinite(self._most):
+            self._motion = self._paced()
+        return self._motion
+
+    def pace(self, most: float) -> Motion:
+        """No point of the tool is faster than this from now on, in all motions [m/s].
+
+        At 0 the arm comes to rest on its path, and goes on from there when it may.
+        """
+        if most != self._most:
+            self._most = most
+            if not self._stopping:
+                self.wake()
+                self._motion = self._paced()
         return self._motion
 
     def stop(self) -> Motion:
@@ -143,6 +163,19 @@ class World:
     def ending(self, motion: Motion) -> float:
         """When a motion is at rest [s]."""
         return self.start + motion.last * STEP
+
+    def _paced(self) -> Motion:
+        limits = self.layout.robot.limits
+        return paced(self._motion, self._tick, STEP, limits, self._most, self._tool_points)
+
+    def _tool_points(self, joints: Floats) -> Floats:
+        """(n, k, 3) where flange and modules are in configurations (n, 6), in the cell frame."""
+        tool, folded = self.layout.tool, self.suction.folded
+        faces = [tool.module(each.name, folded=folded).flange_from_face for each in tool.modules]
+        tips = np.array([(0.0, 0.0, 0.0), *(face.translation for face in faces)])
+        frames = np.array([self._kinematics.frames(row)[6] for row in joints])
+        turned: Floats = np.einsum("nij,kj->nki", frames[:, :, :3], tips)
+        return turned + frames[:, None, :, 3]
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
@@ -237,7 +270,8 @@ class World:
         free = moving and not self._motion.may_touch(self._tick)
         self.contacts.after_step(self._tick, self.now, self.suction.held_boxes, free=free)
         self._quiet = 0 if moving or self._stirs() else self._quiet + 1
-        if moving and (self._tick - self._motion.first) % CONTROL == 0:
+        under_way = moving or not (self._motion.whole or self._stopping)
+        if under_way and (self._tick - self._motion.first) % CONTROL == 0:
             self._look_out()
 
     def _look_out(self) -> None:

@@ -43,7 +43,8 @@ def test_every_node_and_every_state_is_drawn(draw: type, stated: bool) -> None: 
 def test_the_text_of_a_schema_is_the_tree_of_the_paper() -> None:
     """Dashed lines lead to what is abstract."""
     assert tree_text(ground(STORE, "store", ["Box"])) == (
-        "store(Box)               when not Box.on_floor\n"
+        "store(Box)               when not Box.on_floor, within not cell.suspended, "
+        "limit speed cell.speed\n"
         "├╌ take(Box)\n"
         "│  ├─ kr60_reach(Box)\n"
         "│  └─ kr60_grasp(Box)    when kr60.at = Box\n"

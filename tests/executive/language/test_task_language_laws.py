@@ -35,6 +35,7 @@ from depal.executive.schema import (
     Cancel,
     FactDeclaration,
     FactType,
+    Limit,
     Param,
     Repository,
     Resource,
@@ -42,6 +43,7 @@ from depal.executive.schema import (
     Step,
     Task,
 )
+from depal.executive.units import UNITS
 
 VARIABLES = ("Box", "From", "To")
 NAMES = st.one_of(
@@ -98,7 +100,17 @@ def tasks(draw: st.DrawFn) -> Task:
         draw(when),
         tuple(draw(keeps)),
         draw(COMMENTS),
+        draw(when),
+        draw(limits(variables)),
     )
+
+
+def limits(variables: tuple[str, ...]) -> st.SearchStrategy[tuple[Limit, ...]]:
+    """Numbers with their units, and facts."""
+    numbers = st.builds(Limit, NAMES, DURATIONS, st.sampled_from(sorted(UNITS)))
+    return st.lists(
+        numbers | st.builds(Limit, NAMES, fact_refs(variables)), unique=True, max_size=3
+    ).map(tuple)
 
 
 @st.composite
@@ -127,6 +139,8 @@ def actions(draw: st.DrawFn) -> Action:
         probe=draw(st.none() | NAMES),
         idempotent=draw(st.booleans()),
         comment=draw(COMMENTS),
+        within=draw(conditions(variables)),
+        limits=draw(limits(variables)),
     )
 
 
@@ -233,7 +247,7 @@ def test_lines_have_at_most_a_hundred_columns(names: list[list[str]]) -> None:
 WORDS = st.sampled_from(
     [
         *sorted(KEYWORDS),
-        *("Box", "kr60", "v", "s", "5", "1e999"),
+        *("Box", "kr60", "v", "s", "5", "1e999", "m/s", "kg"),
         *"(),:.-=<>|?^¬⟨⟩§é\t\0\n",
         *("\n  ", "# x\n", "\ntask t(Box) until Box.a\n  - x(Box)"),
     ]

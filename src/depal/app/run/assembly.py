@@ -11,6 +11,7 @@ from depal.cell.planning.desk import Desk, MotionDesk
 from depal.cell.planning.planner import Planner
 from depal.cell.questions import Questions
 from depal.cell.reporting import Journalist
+from depal.cell.safety import CautiousArm
 from depal.cell.sight import CameraSight
 from depal.cell.sight.fresh import FreshSight
 from depal.cell.timekeeping import Timekeeper, timed
@@ -89,7 +90,7 @@ def assemble(wiring: Wiring, ports: Ports, desk_of: DeskOf = motion_desk) -> Ass
     times = Timekeeper(ports.clock)
     sight = ports.sight
     ports = timed(ports, times)
-    halting = HaltingArm(ports.arm)
+    halting = HaltingArm(CautiousArm(ports.arm, ports.safety, ports.clock, times))
     ports = replace(ports, arm=halting, sight=FreshSight(ports.sight, ports.clock))
     questions = Questions(ports.person, ports.clock)
     work = Workplace(

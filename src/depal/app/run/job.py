@@ -235,6 +235,7 @@ def _ports(cell: SimulatedCell, faults: Injection, store: LocalStore, sight: Sig
         store=faults.store(store),
         sight=sight,
         clock=faults.clock,
+        override=cell.arm,
     )
 
 

@@ -5,7 +5,7 @@ from typing import Protocol
 
 from depal.domain import BoxId, CellLayout, Delivery
 from depal.executive.clock import Clock
-from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Question, Safety, Sight
+from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Override, Question, Safety, Sight
 from depal.ports.wire.messages import Built
 from depal.server.cellstate import QuestionState
 
@@ -25,6 +25,7 @@ class World(Protocol):
     gripper: Gripper
     bays: Bays
     safety: Safety
+    override: Override
     reader: BarcodeReader
     cameras: Sequence[Camera]
     truth_sight: Sight

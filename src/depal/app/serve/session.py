@@ -140,6 +140,7 @@ class Session:
             store=around.store,
             sight=around.seen.sight,
             clock=around.clock,
+            override=world.override,
         )
 
     def _bind(self) -> None:

@@ -145,6 +145,7 @@ class SpeedsEntry(BaseModel):
     flange: Speed = Field(description="of the flange in free space [m/s]")
     straight: Speed = Field(description="in straight moves near boxes [m/s]")
     set_down: Speed = Field(description="in the last part of setting a box down [m/s]")
+    near: Speed = Field(default=0.25, description="of flange and tool while somebody is near [m/s]")
 
 
 class FixtureEntry(SolidEntry):
@@ -176,7 +177,7 @@ class CellEntry(BaseModel):
     )
     reader: ReaderEntry = Field(description="the barcode reader")
     safety: SafetyEntry = Field(description="the floor inside of the fence")
-    speeds: SpeedsEntry = Field(description="flange, straight and set_down [m/s]")
+    speeds: SpeedsEntry = Field(description="flange, straight, set_down and near [m/s]")
     fixtures: Annotated[tuple[FixtureEntry, ...], LISTED] = Field(
         default=(), description="a list of further solid things: name, centre, size, turn"
     )
@@ -197,7 +198,9 @@ class CellEntry(BaseModel):
             aside=self.places.aside,
             cameras=tuple(camera.as_mount() for camera in self.camera),
             reader=self.reader.as_mount(),
-            speeds=SpeedLimits(self.speeds.flange, self.speeds.straight, self.speeds.set_down),
+            speeds=SpeedLimits(
+                self.speeds.flange, self.speeds.straight, self.speeds.set_down, self.speeds.near
+            ),
             fixtures=(
                 *(fixture.as_box() for fixture in self.fixtures),
                 *self.robot.as_plinth(),

@@ -54,7 +54,7 @@ class Planner:
         self._seed = seed
         self._stopwatch = stopwatch or (lambda: 0.0)
         self.mover = Mover(work.layout)
-        self.timing = Timing(work.layout, work.settings.speed, cone)
+        self.timing = Timing(work.layout, work.settings.speed, cone, lambda: work.bounds.speed)
         self.planned = 0
         self.spent: list[float] = []
 

@@ -1,6 +1,7 @@
 """From planned paths to trajectories, with this cell's speeds and this box's suction."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,11 +29,13 @@ class Timing:
         layout: the cell.
         speed: share of the arm's full speed.
         cone: whether the suction's limits are respected; switched off by tests alone.
+        most: tells what the flange may not exceed whatever the share [m/s].
     """
 
     layout: CellLayout
     speed: float = 1.0
     cone: bool = True
+    most: Callable[[], float] = lambda: math.inf
 
     def along(
         self, parts: Sequence[Part], holding: Holding | None = None, checker: Checker | None = None
@@ -55,15 +58,19 @@ class Timing:
         return timed
 
     def _speed_of(self, part: Part, *, first: bool) -> float:
-        """Of the flange [m/s]; out of the pile, where a motion begins, a box may rub: gently."""
-        speeds = self.layout.speeds
+        """Of the flange [m/s]; out of the pile, where a motion begins, a box may rub: gently.
+
+        The share shrinks it further, so a limit that is absolute grows by it first.
+        """
+        speeds, most = self.layout.speeds, self.most() / self.speed
         if part.kind is Kind.FREE:
-            return speeds.flange
-        return speeds.straight * (GENTLE if first and part.touching else 1.0)
+            return min(speeds.flange, most)
+        return min(speeds.straight * (GENTLE if first and part.touching else 1.0), most)
 
     def slowly(self, part: Part, holding: Holding | None = None) -> Trajectory | None:
         """Along a straight part at the speed at which boxes are set down."""
-        leg = Leg(part.path, curve=True, speed=self.layout.speeds.set_down, touching=part.touching)
+        speed = min(self.layout.speeds.set_down, self.most() / self.speed)
+        leg = Leg(part.path, curve=True, speed=speed, touching=part.touching)
         held = holding if self.cone else None
         return time_path([leg], self.layout.robot, held=held, speed=self.speed)
 

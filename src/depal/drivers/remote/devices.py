@@ -67,6 +67,18 @@ class RemoteArm:
 
 
 @dataclass(frozen=True, slots=True)
+class RemoteOverride:
+    """Behind `Override`."""
+
+    line: Line
+
+    def limit(self, speed: float) -> None:
+        """Flange and tool are no faster than this from now on [m/s]."""
+        with suppress(DeviceError):  # a world that has gone moves nothing
+            self.line.say(m.Limit(speed))
+
+
+@dataclass(frozen=True, slots=True)
 class RemoteGripper:
     """Behind `Gripper`."""
 
@@ -113,7 +125,9 @@ class RemoteSafety:
     def state(self) -> SafetyState:
         """What it says now."""
         state = self.line.state
-        return SafetyState(state.stopped, state.gate_open)
+        return SafetyState(
+            state.stopped, state.gate_open, state.near, state.inside, self.line.heard_at
+        )
 
 
 @dataclass(frozen=True, slots=True)

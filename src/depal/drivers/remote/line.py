@@ -3,6 +3,7 @@
 import asyncio
 import itertools
 import os
+import time
 from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
@@ -20,6 +21,9 @@ T = TypeVar("T")
 BEATING = 0.5
 """The world hears so often that the controller is alive [s of wall time]."""
 
+SILENT = 5.0
+"""A world that has said nothing for this long is silent [s of wall time]."""
+
 GONE = "the world's process has gone"
 
 
@@ -36,6 +40,7 @@ class Line:
         self._tasks: list[asyncio.Task[None]] = []
         self._closed: str | None = None
         self._trouble: str | None = None
+        self._last_word = time.monotonic()
 
     @classmethod
     async def open(cls, socket: Path) -> tuple["Line", m.Welcome]:
@@ -75,6 +80,15 @@ class Line:
         if self._state is None:
             raise DeviceError("nothing is built in this world")
         return self._state
+
+    @property
+    def heard_at(self) -> float | None:
+        """When the world was last heard, in the running loop's time [s]; None for just now.
+
+        A world that draws a picture says nothing meanwhile, and nothing moves in it.
+        """
+        silent = time.monotonic() - self._last_word
+        return None if silent < SILENT else asyncio.get_running_loop().time() - silent
 
     def listen(self, heard: Callable[[m.State], None]) -> Callable[[], None]:
         """Calls a function with every new state; returns what ends that."""
@@ -128,6 +142,7 @@ class Line:
             self._end(self._trouble or reason)
 
     def _take(self, reply: m.Reply) -> None:
+        self._last_word = time.monotonic()
         if reply.number == 0:
             self._trouble = reply.error
         if reply.state is not None:

@@ -11,6 +11,7 @@ from depal.drivers.remote.devices import (
     RemoteCamera,
     RemoteDeeds,
     RemoteGripper,
+    RemoteOverride,
     RemoteReader,
     RemoteReferee,
     RemoteSafety,
@@ -19,7 +20,7 @@ from depal.drivers.remote.devices import (
 from depal.drivers.remote.line import Line
 from depal.errors import DeviceError
 from depal.executive.clock import Pace
-from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Safety, Sight
+from depal.ports import Arm, BarcodeReader, Bays, Camera, Gripper, Override, Safety, Sight
 from depal.ports.wire import messages as m
 
 ENDING = 10.0
@@ -34,6 +35,7 @@ class RemoteWorld:
         gripper: behind `Gripper`.
         bays: behind `Bays`.
         safety: behind `Safety`.
+        override: behind `Override`.
         reader: behind `BarcodeReader`.
         cameras: each behind `Camera`, in the order of the layout; none while nothing is built.
         truth_sight: behind `Sight`, for comparisons.
@@ -57,6 +59,7 @@ class RemoteWorld:
         self.gripper: Gripper = RemoteGripper(line)
         self.bays: Bays = RemoteBays(line)
         self.safety: Safety = RemoteSafety(line)
+        self.override: Override = RemoteOverride(line)
         self.reader: BarcodeReader = RemoteReader(line)
         self.truth_sight: Sight = RemoteSight(line)
         self.deeds = RemoteDeeds(line)

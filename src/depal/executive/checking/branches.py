@@ -44,7 +44,8 @@ def demands_on(model: Model, index: int) -> list[Condition]:
         conditions = model.conditions[index]
         until = conditions.until.condition
         ended = until.part if isinstance(until, Not) else Not(until)
-        demands += [ended, conditions.when.condition, conditions.edge.condition]
+        demands += [ended, conditions.within.condition]
+        demands += [conditions.when.condition, conditions.edge.condition]
         index = model.tree.nodes[index].parent
     return [one for one in reversed(demands) if not isinstance(one, Always)]
 

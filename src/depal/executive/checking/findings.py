@@ -17,6 +17,7 @@ class FindingKind(Enum):
     UNBOUND_VARIABLE = "unbound variable"
     UNDECLARED_FACT = "undeclared fact"
     WRONG_VALUE = "comparison with another kind of value"
+    UNKNOWN_QUANTITY = "unknown quantity"
     UNDECLARED_RESOURCE = "undeclared resource"
     OVER_CAPACITY = "more than the capacity"
     ENDLESS = "endless recursion"

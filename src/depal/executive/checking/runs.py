@@ -147,7 +147,7 @@ def shared_changes(model: Model) -> Iterator[Finding]:
             readers[key] = {
                 node.index
                 for node, conditions in zip(model.tree.nodes, model.conditions, strict=True)
-                if key in conditions.edge.facts or key in conditions.when.facts
+                if any(key in one.facts for one in conditions if one is not conditions.until)
             }
         read = [key for key, nodes in readers.items() if nodes]
         nodes = sorted(set().union(*readers.values()))

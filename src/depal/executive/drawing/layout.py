@@ -127,7 +127,7 @@ def layout(nodes: Sequence[Drawn], top: float) -> Layout:
     Returns:
         All rectangles; none overlaps another.
     """
-    lines = [wrapped(_marked(one)) for one in nodes]
+    lines = [tuple(row for note in one.notes for row in wrapped(note)) for one in nodes]
     ovals = [_oval_width(one) for one in nodes]
     notes = [_note_width(rows) for rows in lines]
     strips = _strips(nodes, [max(pair) + GAP for pair in zip(ovals, notes, strict=True)])
@@ -142,12 +142,6 @@ def layout(nodes: Sequence[Drawn], top: float) -> Layout:
         oval = Rect(centres[place], rows[depth], ovals[place], height)
         placed.append(Placed(one, oval, note, lines[place], bands[depth]))
     return Layout(tuple(placed), strips[0] + 2 * MARGIN, max(rows) + height - top)
-
-
-def _marked(one: Drawn) -> str:
-    if not one.when or one.met is None:
-        return one.when
-    return f"{'✓' if one.met else '✗'} {one.when}"
 
 
 def _oval_width(one: Drawn) -> float:

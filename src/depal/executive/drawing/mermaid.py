@@ -20,7 +20,7 @@ def tree_mermaid(tree: Tree, standings: Standings = None) -> str:
     lines += [f"    {_oval(one)}" for one in nodes]
     for one in nodes:
         if one.node.parent >= 0:
-            label = f'|"{_escaped(_edge(one))}"|' if one.when else ""
+            label = f'|"{_escaped(", ".join(one.notes))}"|' if one.notes else ""
             lines.append(f"    n{one.node.parent} -->{label} n{one.node.index}")
     for state, tint in PALETTE.items():
         name = "plain" if state is None else state.value
@@ -36,14 +36,11 @@ def tree_mermaid(tree: Tree, standings: Standings = None) -> str:
 
 
 def _oval(one: Drawn) -> str:
-    word = f"<br/>{one.word}" if one.word else ""
+    rows = [one.word] if one.word else []
+    if one.node.parent < 0:  # it has no edge that could say it
+        rows += one.notes
+    word = "".join(f"<br/>{_escaped(row)}" for row in rows)
     return f'n{one.node.index}(["{_escaped(one.label)}{word}"])'
-
-
-def _edge(one: Drawn) -> str:
-    if one.met is None:
-        return one.when
-    return f"{'✓' if one.met else '✗'} {one.when}"
 
 
 def _escaped(text: str) -> str:

@@ -101,7 +101,7 @@ def _note(one: Placed) -> list[str]:
     if one.note is None:
         return []
     box = one.note
-    lacking = one.drawn.met is False and one.drawn.state is NodeState.DISABLED
+    lacking = one.drawn.lacking
     tint = PALETTE[NodeState.DISABLED] if lacking else PALETTE[None]
     fill = tint.fill if lacking else PAPER
     line = tint.line if lacking else EDGE

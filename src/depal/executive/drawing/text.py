@@ -18,7 +18,7 @@ def tree_text(tree: Tree, standings: Standings = None) -> str:
         Lines, the last one with its end.
     """
     rows = [
-        (_stem(tree, one) + one.label, _state(one), _when(one)) for one in drawn(tree, standings)
+        (_stem(tree, one) + one.label, _state(one), _notes(one)) for one in drawn(tree, standings)
     ]
     widths = [max(len(row[column]) for row in rows) for column in range(2)]
     lines = (
@@ -58,9 +58,10 @@ def _state(one: Drawn) -> str:
     return f"{'▶' if one.ready else marks[one.state]} {one.word}"
 
 
-def _when(one: Drawn) -> str:
-    if not one.when:
-        return ""
-    if one.met is None:
-        return f"when {one.when}"
-    return f"{'✓' if one.met else '✗'} when {one.when}"
+def _notes(one: Drawn) -> str:
+    """With the word that a file has before a precondition."""
+    notes = list(one.notes)
+    if one.when:
+        first = f"when {one.when}"
+        notes[0] = first if one.met is None else f"{'✓' if one.met else '✗'} {first}"
+    return ", ".join(notes)

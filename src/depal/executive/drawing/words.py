@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from depal.executive.conditions import AllOf, Always, Condition
 from depal.executive.exploring.grounding import grounded
 from depal.executive.language import format_condition
+from depal.executive.language.condition_text import GLUE, limit_text
 from depal.executive.tree import Node, NodeState, Standing, Tree
 
 Standings = Sequence[Standing] | None
@@ -20,7 +21,10 @@ class Drawn:
         node: in the tree.
         label: its schema and the things that it is about.
         when: its precondition, empty where there is none.
+        within: what must hold as long as anything of it runs, empty where there is none.
+        limit: what nothing below may exceed, empty where there is none.
         met: whether the precondition holds; None without states.
+        inside: whether `within` holds; None without states.
         state: its state; None without states.
         ready: whether it may run: concrete, with an open gate.
         word: the state in words, empty without states.
@@ -29,28 +33,55 @@ class Drawn:
     node: Node
     label: str
     when: str
+    within: str
+    limit: str
     met: bool | None
+    inside: bool | None
     state: NodeState | None
     ready: bool
     word: str
 
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What stands on its edge: conditions, marked where it is known whether they hold."""
+        parts = (
+            (self.met, self.when, ""),
+            (self.inside, self.within, "within "),
+            (None, self.limit, "limit "),
+        )
+        return tuple(f"{_mark(holds)}{word}{text}" for holds, text, word in parts if text)
+
+    @property
+    def lacking(self) -> bool:
+        """Whether one of its own conditions disables it."""
+        return self.state is NodeState.DISABLED and False in {self.met, self.inside}
+
+
+def _mark(holds: bool | None) -> str:  # noqa: FBT001 - what is known of a condition
+    return "" if holds is None else "✓ " if holds else "✗ "
+
 
 def drawn(tree: Tree, standings: Standings) -> list[Drawn]:
     """Every node with its words, in the order of the tree."""
-    if standings is None:
-        return [Drawn(n, n.label, precondition(n), None, None, False, "") for n in tree.nodes]  # noqa: FBT003 - a field in place
-    return [
-        Drawn(
-            node=node,
-            label=node.label,
-            when=precondition(node),
-            met=standing.pre,
-            state=standing.state,
-            ready=standing.gate and node.concrete,
-            word=_word(node, standing),
-        )
-        for node, standing in zip(tree.nodes, standings, strict=True)
-    ]
+    known: Sequence[Standing | None] = standings or [None] * len(tree.nodes)
+    return [_drawn(node, standing) for node, standing in zip(tree.nodes, known, strict=True)]
+
+
+def _drawn(node: Node, standing: Standing | None) -> Drawn:
+    schema = node.schema
+    within = grounded(schema.within, node.binding)
+    return Drawn(
+        node=node,
+        label=node.label,
+        when=precondition(node),
+        within="" if isinstance(within, Always) else format_condition(within),
+        limit=", ".join(limit_text(limit).replace(GLUE, " ") for limit in schema.limits),
+        met=None if standing is None else standing.pre,
+        inside=None if standing is None else standing.within,
+        state=None if standing is None else standing.state,
+        ready=standing is not None and standing.gate and node.concrete,
+        word="" if standing is None else _word(node, standing),
+    )
 
 
 def precondition(node: Node) -> str:

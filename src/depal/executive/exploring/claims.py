@@ -51,8 +51,8 @@ class Claims:
         return tuple(sorted(found))
 
     def still_kept(self, keepers: Keepers, standings: Sequence[Standing]) -> Keepers:
-        """The keepers whose gates are open."""
-        return tuple(keeper for keeper in keepers if standings[keeper[0]].gate)
+        """The keepers that are neither accomplished nor disabled but for their `within`."""
+        return tuple(keeper for keeper in keepers if standings[keeper[0]].kept)
 
     def clashes(self, running: Sequence[int]) -> list[str]:
         """What must not run at once and does: too many users, or two that set the same fact."""

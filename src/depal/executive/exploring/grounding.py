@@ -126,16 +126,18 @@ class NodeConditions:
     Attributes:
         edge: the precondition on its edge.
         when: its schema's own precondition.
+        within: what must hold as long as anything of it runs.
         until: its postcondition.
     """
 
     edge: Grounded
     when: Grounded
+    within: Grounded
     until: Grounded
 
     def __iter__(self) -> Iterator[Grounded]:
-        """All three."""
-        return iter((self.edge, self.when, self.until))
+        """All four."""
+        return iter((self.edge, self.when, self.within, self.until))
 
 
 def conditions_of(repository: Repository, tree: Tree) -> list[NodeConditions]:
@@ -149,6 +151,7 @@ def _conditions(repository: Repository, tree: Tree, node: Node) -> NodeCondition
     return NodeConditions(
         ground_condition(repository, node.edge, node.edge_binding, above),
         ground_condition(repository, node.schema.when, binding, sorts),
+        ground_condition(repository, node.schema.within, binding, sorts),
         ground_condition(repository, node.schema.until, binding, sorts),
     )
 

@@ -25,7 +25,7 @@ def _below(moves: Moves, state: State, view: View, index: int) -> list[str]:
     node, standing = model.tree.nodes[index], view.standings[index]
     if standing.post:
         return [f"{node.label} is accomplished"]
-    if not standing.pre:
+    if not (standing.pre and standing.within):
         return [f"{node.label} needs {format_condition(needed(model, index))}"]
     if node.concrete:
         return [_primitive(moves, state, index)]
@@ -35,10 +35,11 @@ def _below(moves: Moves, state: State, view: View, index: int) -> list[str]:
 
 
 def needed(model: Model, index: int) -> Condition:
-    """The precondition on a node's edge and its schema's own, grounded."""
+    """All that has to hold at a node for it to run, grounded."""
+    conditions = model.conditions[index]
     parts = tuple(
         one.condition
-        for one in (model.conditions[index].edge, model.conditions[index].when)
+        for one in (conditions.edge, conditions.when, conditions.within)
         if not isinstance(one.condition, Always)
     )
     return parts[0] if len(parts) == 1 else AllOf(parts)

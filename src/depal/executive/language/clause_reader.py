@@ -8,6 +8,7 @@ from typing import Final, TypeVar
 from depal.executive.conditions import ALWAYS, Condition, FactRef
 from depal.executive.language.condition_reader import read_condition, read_fact
 from depal.executive.language.cursor import Cursor
+from depal.executive.language.limit_reader import read_limit
 from depal.executive.language.tokens import Kind, Token
 from depal.executive.language.words import (
     ACTION_CLAUSES,
@@ -18,9 +19,9 @@ from depal.executive.language.words import (
     listed,
     meant,
 )
-from depal.executive.schema import Cancel
+from depal.executive.schema import Cancel, Limit
 
-_Item = TypeVar("_Item", str, FactRef)
+_Item = TypeVar("_Item", str, FactRef, Limit)
 
 OWNERS: Final[Mapping[str, tuple[str, ...]]] = {
     "a task": TASK_CLAUSES,
@@ -36,6 +37,8 @@ class Clauses:
 
     when: Condition = ALWAYS
     until: Condition | None = None
+    within: Condition = ALWAYS
+    limits: tuple[Limit, ...] = ()
     keeps: tuple[str, ...] = ()
     uses: tuple[str, ...] = ()
     sets: tuple[FactRef, ...] = ()
@@ -75,7 +78,7 @@ def read_clauses(cursor: Cursor, owner: str, variables: AbstractSet[str]) -> Cla
             cursor.note(token, f"{token.text!r} is given twice, first at {first}", "it once")
         seen.setdefault(token.text, token)
         _read_value(cursor, token.text, clauses, variables)
-        after_condition = token.text in {"when", "until"}
+        after_condition = token.text in {"when", "until", "within"}
     return clauses
 
 
@@ -93,7 +96,7 @@ def _no_clause(cursor: Cursor, owner: str, *, after_condition: bool) -> None:
     cursor.fail(expected, exists=meant(token.text, choices) if token.kind is Kind.WORD else "")
 
 
-def _read_value(  # noqa: C901 - one case a clause
+def _read_value(  # noqa: C901, PLR0912 - one case a clause
     cursor: Cursor, word: str, clauses: Clauses, variables: AbstractSet[str]
 ) -> None:
     match word:
@@ -101,6 +104,10 @@ def _read_value(  # noqa: C901 - one case a clause
             clauses.when = read_condition(cursor, variables)
         case "until":
             clauses.until = read_condition(cursor, variables)
+        case "within":
+            clauses.within = read_condition(cursor, variables)
+        case "limit":
+            clauses.limits = _limits(cursor, variables)
         case "keeps":
             clauses.keeps = _names(cursor, word)
         case "uses":
@@ -129,6 +136,10 @@ def _names(cursor: Cursor, word: str) -> tuple[str, ...]:
 
 def _facts(cursor: Cursor, variables: AbstractSet[str]) -> tuple[FactRef, ...]:
     return _list(cursor, "sets", lambda: read_fact(cursor, variables))
+
+
+def _limits(cursor: Cursor, variables: AbstractSet[str]) -> tuple[Limit, ...]:
+    return _list(cursor, "limit", lambda: read_limit(cursor, variables))
 
 
 def _list(cursor: Cursor, word: str, read: Callable[[], _Item]) -> tuple[_Item, ...]:

@@ -16,6 +16,7 @@ from depal.executive.conditions import (
     Operand,
     Var,
 )
+from depal.executive.schema import Limit
 
 GLUE: Final = "\u00a0"
 """A space at which no line is broken, until the text is finished."""
@@ -98,6 +99,13 @@ def number_text(number: float) -> str:
     """A number in as few digits as give it back."""
     whole = number.is_integer() and abs(number) < _WHOLE
     return str(int(number)) if whole else repr(number)
+
+
+def limit_text(limit: Limit) -> str:
+    """`speed 0.25 m/s`."""
+    if isinstance(limit.most, FactRef):
+        return f"{limit.quantity}{GLUE}{fact_text(limit.most)}"
+    return f"{limit.quantity}{GLUE}{number_text(limit.most)}{GLUE}{limit.unit}"
 
 
 def duration_text(seconds: float) -> str:

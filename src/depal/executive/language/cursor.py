@@ -1,6 +1,7 @@
 """A place in a logical line, and the words for what is wrong there."""
 
 import math
+from collections.abc import Collection
 from typing import Final, NoReturn
 
 from depal.errors import Problem
@@ -115,6 +116,17 @@ class Cursor:
             self.note(first, f"{self.since(first)} is no duration", f"{of}, more than 0 s")
             return 1.0
         return seconds
+
+    def unit(self, of: str, units: Collection[str]) -> str:
+        """Takes a unit, as in kg or m/s."""
+        written = self.here.text
+        if self._tokens[min(self._index + 1, len(self._tokens) - 1)].text == "/":
+            written += "".join(token.text for token in self._tokens[self._index + 1 :][:2])
+        if written not in units:
+            self.fail(f"the unit of {of}: {listed(tuple(units))}")
+        for _ in range(3 if "/" in written else 1):
+            self.advance()
+        return written
 
     def since(self, first: Token) -> str:
         """What was written from a token up to here."""

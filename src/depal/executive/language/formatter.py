@@ -10,6 +10,7 @@ from depal.executive.language.condition_text import (
     duration_text,
     fact_text,
     glued_condition,
+    limit_text,
     number_text,
     operand_text,
 )
@@ -98,7 +99,7 @@ def _schema(schema: Schema) -> list[str]:
 
 
 def _task(task: Task) -> list[str]:
-    clauses = [_until(task)]
+    clauses = [_until(task), *_bounds(task)]
     if task.keeps:
         clauses.append(f"keeps{GLUE}{', '.join(task.keeps)}")
     lines = _head("task", task, clauses)
@@ -127,7 +128,7 @@ def _says(step: Step) -> str:
 
 
 def _action(action: Action) -> list[str]:
-    clauses = [_until(action)]
+    clauses = [_until(action), *_bounds(action)]
     if action.uses:
         clauses.append(f"uses{GLUE}{', '.join(action.uses)}")
     if action.sets:
@@ -161,6 +162,16 @@ def _manner(action: Action) -> list[str]:
 def _until(schema: Schema) -> str:
     until = f"until{GLUE}{glued_condition(schema.until)}"
     return until if schema.when == ALWAYS else f"when{GLUE}{glued_condition(schema.when)} {until}"
+
+
+def _bounds(schema: Schema) -> list[str]:
+    """What holds throughout, and what is not exceeded."""
+    clauses = []
+    if schema.within != ALWAYS:
+        clauses.append(f"within{GLUE}{glued_condition(schema.within)}")
+    if schema.limits:
+        clauses.append(f"limit{GLUE}{', '.join(map(limit_text, schema.limits))}")
+    return clauses
 
 
 def _head(word: str, schema: Schema, clauses: list[str]) -> list[str]:

@@ -16,7 +16,7 @@ _Head = tuple[str, tuple[Param, ...]]
 
 
 def read_task(line: Line, steps: Sequence[Line], problems: list[Problem]) -> Task:
-    """`task NAME(Params) [when COND] until COND [keeps R, R2]` and its steps.
+    """`task NAME(Params) [when COND] until COND [within COND] [limit Q X] [keeps R]`, its steps.
 
     Args:
         line: it begins with `task`.
@@ -50,7 +50,17 @@ def read_task(line: Line, steps: Sequence[Line], problems: list[Problem]) -> Tas
         cursor.note(line.tokens[0], what, "until and the condition that ends it")
         raise UnreadableError
     comment = joined([*line.comments, *(text for step in steps for text in step.comments)])
-    return Task(name, params, tuple(read), clauses.until, clauses.when, clauses.keeps, comment)
+    return Task(
+        name,
+        params,
+        tuple(read),
+        until=clauses.until,
+        when=clauses.when,
+        keeps=clauses.keeps,
+        comment=comment,
+        within=clauses.within,
+        limits=clauses.limits,
+    )
 
 
 def _steps(
@@ -123,6 +133,8 @@ def read_action(line: Line, steps: Sequence[Line], problems: list[Problem]) -> A
         backoff=clauses.backoff,
         probe=clauses.probe,
         idempotent=clauses.idempotent,
+        within=clauses.within,
+        limits=clauses.limits,
         comment=joined(line.comments),
     )
 

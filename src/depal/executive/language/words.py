@@ -5,9 +5,9 @@ from typing import Final
 
 DECLARATIONS: Final = ("fact", "resource", "task", "action", "schema")
 
-TASK_CLAUSES: Final = ("when", "until", "keeps")
+TASK_CLAUSES: Final = ("when", "until", "within", "limit", "keeps")
 ACTION_CLAUSES: Final = (
-    *("when", "until", "uses", "sets"),
+    *("when", "until", "within", "limit", "uses", "sets"),
     *("cancel", "timeout", "retries", "backoff", "probe", "idempotent"),
 )
 STEP_CLAUSES: Final = ("when", "bias")

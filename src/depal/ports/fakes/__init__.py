@@ -6,6 +6,7 @@ They know no physics. A test says what happens; they tell in which order it happ
 from depal.ports.fakes.arm import FakeArm
 from depal.ports.fakes.bays import FakeBays
 from depal.ports.fakes.gripper import FakeGripper
+from depal.ports.fakes.override import FakeOverride
 from depal.ports.fakes.person import FakePerson
 from depal.ports.fakes.reader import FakeReader
 from depal.ports.fakes.safety import FakeSafety
@@ -16,6 +17,7 @@ __all__ = [
     "FakeArm",
     "FakeBays",
     "FakeGripper",
+    "FakeOverride",
     "FakePerson",
     "FakeReader",
     "FakeSafety",

@@ -7,7 +7,7 @@ from depal.ports.devices import Watch
 from depal.ports.people import Question
 from depal.ports.wire.values import Path
 
-VERSION = 1
+VERSION = 2
 """Of these messages; both sides have the same."""
 
 
@@ -30,6 +30,8 @@ class State(msgspec.Struct, frozen=True):
     stopped: bool
     gate_open: bool
     lag: float = 0.0
+    near: bool = False
+    inside: bool = False
 
 
 class Truth(msgspec.Struct, frozen=True):
@@ -73,6 +75,12 @@ class Follow(msgspec.Struct, frozen=True, tag=True):
 
     path: Path
     watch: Watch
+
+
+class Limit(msgspec.Struct, frozen=True, tag=True):
+    """Flange and tool are no faster than this from now on [m/s]."""
+
+    speed: float
 
 
 class Halt(msgspec.Struct, frozen=True, tag=True):
@@ -146,6 +154,7 @@ Call = (
     Hello
     | Build
     | Follow
+    | Limit
     | Halt
     | Fold
     | Suck

@@ -1,6 +1,7 @@
 """The simulated arm."""
 
 import asyncio
+import math
 
 import numpy as np
 
@@ -31,7 +32,7 @@ class SimulatedArm:
     def __init__(self, world: World, clock: Clock, safety: SimulatedSafety) -> None:
         """The arm of this world."""
         self._world, self._clock, self._safety = world, clock, safety
-        self._busy = False
+        self._busy, self._most = False, math.inf
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
@@ -42,6 +43,16 @@ class SimulatedArm:
         """The weight that hangs on the flange beyond the tool's own, as a mass [kg]."""
         self._world.advance(self._clock.now())
         return self._world.load()
+
+    def limit(self, speed: float) -> None:
+        """Flange and tool are no faster than this from now on [m/s]; behind `Override`."""
+        self._most = speed
+        self._world.advance(self._clock.now())
+        self._keep_pace()
+
+    def _keep_pace(self) -> Motion:
+        """The override; and with somebody in the protective field the arm stands, whoever says."""
+        return self._world.pace(0.0 if self._safety.state().inside else self._most)
 
     async def follow(
         self, trajectory: Trajectory, guard: Guard | None = None, watch: Watch | None = None
@@ -62,6 +73,7 @@ class SimulatedArm:
         """
         self._world.advance(self._clock.now())
         self._check(trajectory)
+        self._keep_pace()
         self._busy = True
         motion = self._world.begin(trajectory, watch)
         try:
@@ -74,14 +86,14 @@ class SimulatedArm:
             raise
         finally:
             self._busy = False
-        if self._safety.state().stopped:
+        if self._safety.state().tripped:
             raise DeviceError(f"the arm stopped on its path: {reason}")
         return reason
 
     def _check(self, trajectory: Trajectory) -> None:
         if self._busy:
             raise DeviceError("the arm was told to move while it moves")
-        if self._safety.state().stopped:
+        if self._safety.state().tripped:
             raise DeviceError("the arm cannot move: a safety stop is active")
         wanted, _ = self._world.wanted()
         away = np.abs(np.array(trajectory.start) - wanted)
@@ -115,14 +127,20 @@ class SimulatedArm:
             )
 
     async def _watch(self, motion: Motion, guard: Guard | None) -> str | None:
-        """Waits for the end of a motion, period by period; the reason to stop before it."""
+        """Waits for the end of a motion, period by period; the reason to stop before it.
+
+        A motion that stands still on its path because nobody may move goes on by itself.
+        """
         start, periods = self._clock.now(), 0
         end = self._world.ending(motion)
-        while self._clock.now() < end - 1e-9:
+        while self._clock.now() < end - 1e-9 or not motion.whole:
             periods += 1
-            await _until(self._clock, min(start + periods * PERIOD, end))
+            due = start + periods * PERIOD
+            await _until(self._clock, min(due, end) if motion.whole else due)
             self._world.advance(self._clock.now())
-            reason = "a safety stop is active" if self._safety.state().stopped else None
+            motion = self._keep_pace()
+            end = self._world.ending(motion)
+            reason = "a safety stop is active" if self._safety.state().tripped else None
             reason = reason or self._world.seen
             if reason is None and guard is not None:
                 reason = guard()

@@ -6,7 +6,7 @@ from depal.domain import Joints
 from depal.errors import DeviceError
 from depal.executive.clock import Clock
 from depal.ports import Arm, Guard, Trajectory, Watch
-from depal.simulation.devices.safety import SimulatedSafety
+from depal.simulation.devices.safety import SimulatedSafety, Visit
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
 from depal.simulation.faults.pile import FaultyPile
@@ -21,7 +21,7 @@ ANY, EARLY = (0.1, 0.9), (0.05, 0.25)
 
 
 class FaultyArm:
-    """G3, M5, M6 and M7 strike while it moves, M6 and M7 until a person has seen to them.
+    """G3, M5, M6, M7 and O1 strike while it moves, M6 and M7 until a person has seen to them.
 
     Attributes:
         began: when each motion began [s], for the referee.
@@ -114,11 +114,19 @@ class FaultyArm:
         self, phase: Phase, box: int | None
     ) -> tuple[Struck, Callable[[], str | None]] | None:
         """What happens during this motion."""
+        visited = self._chances.strikes("O1", phase, box)
+        if visited is not None:
+            return visited, lambda: self._let_in(visited)
         doings = {"G3": self._drop, "M5": _leave, "M6": self._meet, "M7": self._stop}
         for name, doing in doings.items():
             struck = self._chances.strikes(name, phase, box)
             if struck is not None:
                 return struck, doing
+        return None
+
+    def _let_in(self, visited: Struck) -> str | None:
+        lasts = visited.fault.lasts
+        self._safety.visits.append(Visit(self._clock.now(), lasts))
         return None
 
     def _drop(self) -> str | None:

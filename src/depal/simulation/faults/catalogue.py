@@ -83,6 +83,7 @@ ENTRIES = (
     Entry("M5", "the arm leaves its path and stops", MOVING, 0.0, (_HELD, _ON)),
     Entry("M6", "the arm meets a torque that it does not expect", MOVING, math.inf, (_HELD,)),
     Entry("M7", "an emergency stop, or the gate is opened", MOVING, math.inf, (_ABORTED,)),
+    Entry("O1", "somebody comes near, and then in before the arm", MOVING, 9.0, (_ON,)),
     Entry("T1", "the trolley is absent", (Phase.GRASP,), 60.0, (_ON, _ASIDE)),
     Entry("T3", "a trolley is exchanged unasked", (Phase.GRASP,), 0.0, (_ON,)),
     Entry("W1", "the store's system is silent", (Phase.QUERY, Phase.TELL), 5.0, (_ON, _ASIDE)),

@@ -171,6 +171,8 @@ class WorldServer:
                 return
             case m.Halt(reason):
                 self.stage.halt(reason)
+            case m.Limit(speed):
+                self.stage.limit(speed)
             case m.Shutdown():
                 self.end()
             case call:

@@ -62,6 +62,11 @@ class Stage:
         for course in self._courses:
             course.halted = course.halted or reason
 
+    def limit(self, speed: float) -> None:
+        """The arm is no faster than this from now on [m/s]; what is no speed stops it."""
+        if self._cell is not None:
+            self._cell.arm.limit(max(speed, 0.0))
+
     def sensed(self) -> tuple[m.State | None, str | None]:
         """What the sensors say now, or why they say nothing; neither while nothing is built."""
         if self._cell is None:
@@ -83,6 +88,8 @@ class Stage:
             safety.stopped,
             safety.gate_open,
             lag_of_this_loop(),
+            safety.near,
+            safety.inside,
         )
 
     def takes_on(self, call: m.Call) -> Awaitable[object]:
