@@ -181,10 +181,12 @@ class Recovery:
         facts = work.runtime.engine.state.facts
         for departure in work.departures.sequence:
             box, place = departure.box, departure.place
-            if departure.fate is Fate.STORED and place and not facts.get(f"{box}.stored"):
+            if departure.fate is Fate.STORED and place:
+                # Told before or not: it counts once.
                 name = movement_id(box, place)
-                moved = Movement(name, box, departure.gtin, place, work.now)
-                await work.outbox.tell(moved)
+                await work.outbox.tell(Movement(name, box, departure.gtin, place, work.now))
+                if facts.get(f"{box}.stored"):
+                    continue
                 work.tell([(f"{box}.taken", False), (f"{box}.stored", True)], "restart")
             elif departure.fate is Fate.SET_ASIDE and not facts.get(f"{box}.at"):
                 work.tell([(f"{box}.taken", False), (f"{box}.at", "aside")], "restart")

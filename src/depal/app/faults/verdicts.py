@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from depal.app.run.summary import Outcome
+from depal.cell.bookkeeping import RECORDS
 from depal.cell.departures import Fate
 from depal.cell.halting import ARM
 from depal.simulation.faults import CATALOGUE, End
@@ -74,7 +75,7 @@ def broken_in(outcome: Outcome) -> Iterator[str]:
         yield f"I5: {hit.at:.1f} s: {hit.who} against {hit.against}"
     for asked in outcome.questions:
         question, answered = asked.question, asked.answered
-        if question.about != ARM and not question.id.startswith(DECISION):
+        if question.about not in {ARM, RECORDS} and not question.id.startswith(DECISION):
             continue
         for began in outcome.motions:
             if answered is not None and asked.asked + SPARE < began < answered - SPARE:

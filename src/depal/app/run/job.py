@@ -178,13 +178,14 @@ async def _run(
         job.told,
         job.settings,
         tasks,
-        keeper.journal,
+        injection.journal(keeper.journal),
         seed=job.seed,
         impossible=job.impossible,
         cone=job.cone,
     )
     wired = assemble(wiring, _ports(cell, injection, store, sight))
     work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
+    work.keep = controller.books.keeping(injection.page)
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.told.boxes))

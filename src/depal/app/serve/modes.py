@@ -16,6 +16,7 @@ STANDING = {
     Stage.DONE: (Mode.COMPLETE, "The pallet is empty."),
     Stage.STOPPED: (Mode.STOPPED, "Stopped after a box. Press Start to go on."),
     Stage.HELD: (Mode.HELD, "Held by a person. Press Resume to go on."),
+    Stage.UNWRITTEN: (Mode.HELD, "Nothing can be written. Make room, then press Start."),
     Stage.RECOVERED: (Mode.HELD, "The controller was started anew. Press Start to go on."),
 }
 
@@ -35,6 +36,9 @@ def mode_of(session: Session | None, alarms: Sequence[Alarm]) -> tuple[Mode, str
 
 def _working(session: Session) -> tuple[Mode, str]:
     """Working, unless everything waits for an answer."""
+    unwritten = session.wired.controller.books.error
+    if unwritten is not None:
+        return Mode.HELD, f"Nothing moves, for what is done cannot be written: {unwritten}"
     waited_for = [question for question in session.person.open if question.blocks]
     if not waited_for or _moves(session):
         return Mode.EXECUTE, "Boxes are being moved."

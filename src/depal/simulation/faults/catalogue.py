@@ -10,7 +10,7 @@ class Phase(Enum):
 
     Look: a picture is taken. Reach: the arm moves with an empty hand. Grasp: suction comes. Carry:
     the arm moves with a box. Place: it sets one down. Read: the barcode reader looks. Query: the
-    store's system is asked. Tell: it is told.
+    store's system is asked. Tell: it is told. Write: something is written before it is done.
     """
 
     LOOK = "look"
@@ -21,6 +21,7 @@ class Phase(Enum):
     READ = "read"
     QUERY = "query"
     TELL = "tell"
+    WRITE = "write"
 
 
 MOVING = (Phase.REACH, Phase.CARRY, Phase.PLACE)
@@ -88,6 +89,7 @@ ENTRIES = (
     Entry("W1", "the store's system is silent", (Phase.QUERY, Phase.TELL), 5.0, (_ON, _ASIDE)),
     Entry("W2", "the store's system is slow", (Phase.QUERY, Phase.TELL), 30.0, (_ON, _ASIDE)),
     Entry("W3", "the store's system is told twice", (Phase.TELL, Phase.QUERY), 0.0, (_ON,)),
+    Entry("C3", "the disk is full", (Phase.WRITE,), math.inf, (_HELD,)),
     Entry("W6", "the store knows no place", (Phase.QUERY,), 30.0, (_ON, _ASIDE)),
 )
 

@@ -28,6 +28,7 @@ class Chances:
         self._plan, self._seed, self._now = plan, seed, now
         self._dice = [np.random.default_rng([seed, 7, n]) for n in range(len(plan.faults))]
         self._over: set[int] = set()
+        self._met = [0] * len(plan.faults)
         self.struck: list[Struck] = []
         self.step = 0
 
@@ -46,6 +47,9 @@ class Chances:
             if when.box not in {None, box} or when.step not in {None, self.step}:
                 continue
             if self._now() < when.time:
+                continue
+            self._met[number] += 1
+            if self._met[number] < when.nth:
                 continue
             if when.p is None:
                 self._over.add(number)

@@ -3,12 +3,14 @@
 from dataclasses import dataclass
 
 from depal.executive.clock import Clock
+from depal.executive.journal import Journal
 from depal.ports import Sight, StoreSystem
 from depal.simulation.cell import SimulatedCell
 from depal.simulation.faults.arm import FaultyArm
 from depal.simulation.faults.bays import FaultyBays
 from depal.simulation.faults.chances import Chances
 from depal.simulation.faults.gripper import FaultyGripper
+from depal.simulation.faults.journal import FaultyJournal, refuse
 from depal.simulation.faults.person import MendingPerson
 from depal.simulation.faults.pile import FaultyPile
 from depal.simulation.faults.plan import FaultPlan, Struck
@@ -73,6 +75,18 @@ class Injection:
     def store(self, store: StoreSystem) -> FaultyStore:
         """The store's system, whose answers may fail."""
         return FaultyStore(store, self.clock, self.chances, self.bays.asked_for)
+
+    def journal(self, journal: Journal) -> FaultyJournal:
+        """The executive's journal, on a disk that may be full."""
+        return FaultyJournal(journal, self.chances)
+
+    def page(self) -> None:
+        """A page of the ledger is written, where the disk takes it.
+
+        Raises:
+            JournalError: the disk is full.
+        """
+        refuse(self.chances)
 
     @property
     def struck(self) -> tuple[Struck, ...]:

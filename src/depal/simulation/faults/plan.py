@@ -11,6 +11,9 @@ from depal.simulation.faults.catalogue import CATALOGUE, Phase
 LIFTED = frozenset({Phase.CARRY, Phase.PLACE, Phase.READ, Phase.TELL})
 """In these phases a box has been lifted."""
 
+WRITES = 20
+"""So many writes there are for a box at the least, from one lift to the next."""
+
 
 @dataclass(frozen=True, slots=True)
 class When:
@@ -22,6 +25,7 @@ class When:
         time: not before this [s].
         p: the probability at each chance; None for once, at the first chance.
         phase: what the cell is doing; None for any in which the fault can strike.
+        nth: at the so-manieth chance at which all the rest holds, from 1.
     """
 
     box: int | None = None
@@ -29,6 +33,7 @@ class When:
     time: float = 0.0
     p: float | None = None
     phase: Phase | None = None
+    nth: int = 1
 
 
 ALWAYS = When()
@@ -87,7 +92,8 @@ class FaultPlan:
         random, phases = np.random.default_rng([seed, 9]), CATALOGUE[fault_id].phases
         phase = phases[int(random.integers(len(phases)))]
         step = int(random.integers(boxes)) + (phase in LIFTED)
-        return cls((Fault(fault_id, When(step=step, phase=phase)),))
+        nth = int(random.integers(1, WRITES)) if phase is Phase.WRITE else 1
+        return cls((Fault(fault_id, When(step=step, phase=phase, nth=nth)),))
 
     @property
     def ids(self) -> frozenset[str]:
