@@ -154,6 +154,45 @@ def test_a_full_disk_holds_the_cell_and_with_room_again_it_goes_on(
     run_simulated(shift())
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("by_safety", [True, False], ids=["emergency stop", "error of the arm"])
+def test_after_a_stop_nothing_moves_until_somebody_says_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, by_safety: bool
+) -> None:
+    """Aborted after the one, Held after the other: the mode follows from the facts."""
+
+    async def shift() -> None:
+        means, world, notes, clock, _ = around(tmp_path)
+        told = list[CellState]()
+        day = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        await day.start(Order(1, DELIVERY))
+        await asyncio.sleep(6.0)
+        with monkeypatch.context() as patched:
+            if by_safety:
+                world.safety.stopped = True
+            else:
+                patched.setattr("depal.simulation.devices.SimulatedArm.follow", refuses)
+            await asyncio.sleep(20.0)
+            day.tell()
+            assert told[-1].mode is (Mode.ABORTED if by_safety else Mode.HELD)
+        stands = world.arm.joints()
+        world.safety.stopped = False
+        await asyncio.sleep(60.0)
+        day.tell()
+        assert told[-1].mode is (Mode.ABORTED if by_safety else Mode.HELD)
+        assert world.arm.joints() == pytest.approx(stands, abs=1e-6)
+        (question,) = told[-1].questions
+        day.answer(question.id, "start", "somebody")
+        await asyncio.sleep(200.0)
+        assert (told[-1].mode, told[-1].stored) == (Mode.COMPLETE, 3)
+        await day.end()
+
+    async def refuses(*_: object) -> str | None:
+        raise DeviceError("the arm met something")
+
+    run_simulated(shift())
+
+
 def session_over(folder: Path) -> tuple[Session, WorldHere]:
     """A run that is taken up where there is a record, else a new one."""
     means, world, notes, clock, store = around(folder)

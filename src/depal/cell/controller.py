@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
 from depal.cell.bookkeeping import Bookkeeping
+from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.workplace import PALLET, Workplace
@@ -33,6 +34,7 @@ class Controller:
         journal: Journal,
         engine: Engine | None = None,
         books: Bookkeeping | None = None,
+        arm: HaltingArm | None = None,
     ) -> None:
         """Binds every action of the task files to its primitive.
 
@@ -44,13 +46,14 @@ class Controller:
             journal: written before anything is done.
             engine: folded from that journal; None for one that knows nothing.
             books: asked by the arm and the gripper whether all is written; None for new ones.
+            arm: that goes on after a stop when `restart_arm` lets it; None where none stops.
 
         Raises:
             TaskError: the task files name an action that this cell does not know.
         """
         self.work = work
         self.desk = desk
-        primitives, probes = bindings(work, desk, notes)
+        primitives, probes = bindings(work, desk, notes, arm)
         self.runtime = Runtime(
             engine or Engine(tasks), journal, work.ports.clock, primitives, probes
         )

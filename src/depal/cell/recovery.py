@@ -15,6 +15,7 @@ from depal.cell.guards import Guards
 from depal.cell.hand import Hand, Phase
 from depal.cell.ledger.reconciling import Found, Sensed, reconcile
 from depal.cell.planning.desk import Desk
+from depal.cell.primitives.restarting import OVER
 from depal.cell.stock import movement_id
 from depal.cell.workplace import FIRST, Held, Workplace
 from depal.domain import BoxId
@@ -201,7 +202,7 @@ class Recovery:
                 self._work.runtime.withdraw(number, "the box has left the cell")
 
     def _forget_the_rest(self, hand: Hand | None) -> None:
-        """The arm is nowhere, and no box but the one in the hand is in it."""
+        """The arm is nowhere and stands clear, and no box but the one in the hand is in it."""
         facts = self._work.runtime.engine.state.facts
         held = None if hand is None or self.found is not Found.HOLDING else f"{hand.box}.taken"
         stale = [
@@ -209,7 +210,7 @@ class Recovery:
             for key, value in facts.items()
             if key.endswith(".taken") and value and key != held
         ]
-        self._work.tell([*stale, (ARM_AT, None)], "restart")
+        self._work.tell([*stale, (ARM_AT, None), *OVER], "restart")
 
     def _withdraw_what_waits(self) -> None:
         """What stands on the pallet is looked at and chosen anew: names may have changed."""

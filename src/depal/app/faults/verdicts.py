@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from depal.app.run.summary import Outcome
 from depal.cell.bookkeeping import RECORDS
 from depal.cell.departures import Fate
-from depal.cell.halting import ARM
+from depal.cell.primitives.restarting import ARM
 from depal.simulation.faults import CATALOGUE, End
 
 DECISION = "decision/"

@@ -87,10 +87,12 @@ def assemble(wiring: Wiring, ports: Ports) -> Assembly:
     )
     planner = Planner(work, times, cone=wiring.cone, seed=wiring.seed, stopwatch=time.perf_counter)
     desk = Desk(work, planner)
-    halting.bind(work, desk)
+    halting.bind(work)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
         work.feedback = Feedback(sight.learn, sight.doubt, sight.deny, sight.part)
     notes = Journalist()
-    controller = Controller(work, desk, notes, wiring.tasks, wiring.journal, wiring.engine, books)
+    controller = Controller(
+        work, desk, notes, wiring.tasks, wiring.journal, wiring.engine, books, halting
+    )
     return Assembly(work, desk, notes, controller, times)
