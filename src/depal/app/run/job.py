@@ -185,6 +185,7 @@ async def _run(
     )
     wired = assemble(wiring, _ports(cell, injection, store, sight))
     work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
+    desk.planner.mover = injection.mover(desk.planner.mover)
     work.keep = controller.books.keeping(injection.page)
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)

@@ -141,6 +141,13 @@ class Promises:
             self.books = self.books.take(box)
             self._around.take(box)
 
+    def replaced(self, trolley: str) -> None:
+        """Another trolley stands in the bay, and nobody was asked for it: the spots are gone."""
+        for box, plan in list(self._carries.items()):
+            if plan.place.startswith(f"{trolley}/"):
+                self.release(box)
+        self.exchanged(trolley)
+
     def exchanged(self, trolley: str) -> None:
         """An empty trolley stands in the bay."""
         self.books, gone = self.books.exchanged(trolley)

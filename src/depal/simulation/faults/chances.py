@@ -32,6 +32,11 @@ class Chances:
         self.struck: list[Struck] = []
         self.step = 0
 
+    @property
+    def planned(self) -> frozenset[str]:
+        """The faults that may strike."""
+        return self._plan.ids
+
     def strikes(self, fault_id: str, phase: Phase, box: int | None = None) -> Struck | None:
         """A chance for a fault to begin: the first of its entries that does.
 
@@ -61,11 +66,15 @@ class Chances:
 
     def lasts(self, fault_id: str, phase: Phase, box: int | None = None) -> Struck | None:
         """The fault of that name that lasts now; a chance for it to begin where none does."""
+        return self.lasting(fault_id) or self.strikes(fault_id, phase, box)
+
+    def lasting(self, fault_id: str) -> Struck | None:
+        """The fault of that name that lasts now, where one does."""
         now = self._now()
         for struck in reversed(self.struck):
             if struck.fault.id == fault_id and now < struck.until:
                 return struck
-        return self.strikes(fault_id, phase, box)
+        return None
 
     def take_back(self, struck: Struck) -> None:
         """It did not happen after all: there will be another chance."""
@@ -79,6 +88,10 @@ class Chances:
             if struck.fault.id in known and struck.until > now:
                 over = replace(struck.fault, duration=max(now - struck.at, 0.0))
                 self.struck[number] = replace(struck, fault=over)
+
+    def fixed_dice(self, *key: int) -> np.random.Generator:
+        """Numbers that stay the same for the whole run."""
+        return np.random.default_rng([self._seed, 10, *key])
 
     def dice(self, *key: int) -> np.random.Generator:
         """Numbers for how a fault strikes, apart from whether it does."""

@@ -11,8 +11,8 @@ from depal.simulation.faults.catalogue import CATALOGUE, Phase
 LIFTED = frozenset({Phase.CARRY, Phase.PLACE, Phase.READ, Phase.TELL})
 """In these phases a box has been lifted."""
 
-WRITES = 20
-"""So many writes there are for a box at the least, from one lift to the next."""
+CHANCES = {Phase.WRITE: 20, Phase.PLAN: 3}
+"""So many chances of a phase there are from one lift to the next, where there are several."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ class FaultPlan:
         random, phases = np.random.default_rng([seed, 9]), CATALOGUE[fault_id].phases
         phase = phases[int(random.integers(len(phases)))]
         step = int(random.integers(boxes)) + (phase in LIFTED)
-        nth = int(random.integers(1, WRITES)) if phase is Phase.WRITE else 1
+        nth = int(random.integers(1, CHANCES.get(phase, 1) + 1))
         return cls((Fault(fault_id, When(step=step, phase=phase, nth=nth)),))
 
     @property

@@ -1,9 +1,11 @@
 """The simulated RGB-D camera."""
 
 import asyncio
+from dataclasses import replace
 
 from depal.domain import CameraMount
 from depal.executive.clock import Clock
+from depal.geometry import Pose
 from depal.ports import Frame
 from depal.simulation.imaging.model import CameraModel
 from depal.simulation.imaging.scene import Stage
@@ -29,6 +31,7 @@ class SimulatedCamera:
         self._severity = severity
         self._model: CameraModel | None = None
         self._taken = 0
+        self._shift: Pose | None = None
 
     @property
     def model(self) -> CameraModel:
@@ -37,6 +40,15 @@ class SimulatedCamera:
             scene, seed = self._stage.scene, self._stage.world.seed
             self._model = CameraModel(scene, self._mount, seed, self._severity)
         return self._model
+
+    def bump(self, shift: Pose | None) -> None:
+        """It sees everything shifted by this; by nothing where None, as it was hung."""
+        if shift == self._shift:
+            return
+        self._shift = shift
+        pose = self._mount.cell_from_camera
+        moved = pose if shift is None else shift.inverse @ pose
+        self._model = self.model.at(replace(self._mount, cell_from_camera=moved))
 
     async def take(self) -> Frame:
         """Takes one picture at the end of its exposure."""
