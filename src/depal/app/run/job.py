@@ -17,8 +17,11 @@ from depal.app.run.case2 import case2_delivery, case2_names, case2_requests
 from depal.app.run.eyes import camera_sight
 from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, one_of, policy_of, refuse_what_cannot_work
+from depal.app.run.inspecting import Inspector
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
+from depal.app.run.recovering import RecoveryTimes, TimedWorld
+from depal.app.run.request_ends import wrong_ends
 from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
@@ -167,7 +170,13 @@ async def _run(
 ) -> tuple[Outcome, Film]:
     clock = LoopClock()
     cell = build(
-        job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity
+        job.layout,
+        job.delivery,
+        job.seed,
+        clock=clock,
+        sight=job.sight,
+        severity=job.severity,
+        kind=TimedWorld,
     )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.told], places, seed=job.seed)
@@ -194,20 +203,33 @@ async def _run(
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
     scores = ScoreKeeper(work, lambda: sight.frames if isinstance(sight, CameraSight) else ())
     scores.listen_to(notes)
+    inspector, recoveries = Inspector(work, cell), RecoveryTimes(cell.world)
+    if job.inspected:
+        if isinstance(cell.world, TimedWorld):
+            cell.world.stopwatch = time.perf_counter
+        for looks_on in (inspector, recoveries):
+            looks_on.listen_to(notes)
+            injection.arm.watchers.append(looks_on.moves)
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
         async with asyncio.timeout(job.horizon):
-            await controller.empty_pallet(job.requests)
+            working = controller.empty_pallet(job.requests)
+            await (inspector.over(working) if job.inspected else working)
     filming.cancel()
     film.take()
-    _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
+    wishes = dict(zip(keys, work.wishes, strict=True))
+    _close_books(store, keeper, controller, wishes)
     outcome = _outcome(job, work, desk, cell, keeper, wired.times)
     outcome = replace(
         outcome,
         struck=injection.struck,
         motions=tuple(injection.arm.began),
         most_held=injection.arm.most_held,
+        broken=inspector.broken,
+        ends_amiss=tuple(wrong_ends(store.requests(), wishes, outcome.stack, cell.referee)),
+        checks=inspector.checks,
+        recoveries=tuple(recoveries.seconds),
     )
     return replace(outcome, scores=scores.scores), film
 

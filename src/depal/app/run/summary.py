@@ -58,6 +58,10 @@ class Outcome:
         struck: the faults that have struck.
         motions: when each motion of the arm began [s].
         most_held: how many boxes hung on the arm together.
+        broken: the invariant that was broken while it ran, in words; empty where none was.
+        ends_amiss: what is wrong with how the requests have ended, in words.
+        checks: how often the invariants were checked.
+        recoveries: real time from the notice of each fault to the next motion [s].
     """
 
     delivery: str
@@ -84,6 +88,10 @@ class Outcome:
     struck: tuple[Struck, ...] = ()
     motions: tuple[float, ...] = ()
     most_held: int = 0
+    broken: str = ""
+    ends_amiss: tuple[str, ...] = ()
+    checks: int = 0
+    recoveries: tuple[float, ...] = ()
 
     @property
     def stored(self) -> int:
