@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from depal.app.run.inspecting import DECISION
+from depal.app.run.inspecting import DECISION, undue
 from depal.app.run.summary import Outcome
 from depal.cell.bookkeeping import RECORDS
 from depal.cell.departures import Fate
@@ -81,7 +81,7 @@ def _accounts(outcome: Outcome) -> Iterator[str]:
     names = [departure.box for departure in outcome.departures]
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"I3: box {name} has ended {names.count(name)} times"
-    for hit in outcome.referee.collisions:
+    for hit in undue(outcome.referee.collisions, outcome.fell):
         yield f"I5: {hit.at:.1f} s: {hit.who} against {hit.against}"
 
 

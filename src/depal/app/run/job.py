@@ -203,7 +203,7 @@ async def _run(
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
     scores = ScoreKeeper(work, lambda: sight.frames if isinstance(sight, CameraSight) else ())
     scores.listen_to(notes)
-    inspector, recoveries = Inspector(work, cell), RecoveryTimes(cell.world)
+    inspector, recoveries = Inspector(work, cell, injection.arm.fell), RecoveryTimes(cell.world)
     if job.inspected:
         if isinstance(cell.world, TimedWorld):
             cell.world.stopwatch = time.perf_counter
@@ -228,6 +228,7 @@ async def _run(
         most_held=injection.arm.most_held,
         broken=inspector.broken,
         ends_amiss=tuple(wrong_ends(store.requests(), wishes, outcome.stack, cell.referee)),
+        fell=dict(injection.arm.fell),
         checks=inspector.checks,
         recoveries=tuple(recoveries.seconds),
     )

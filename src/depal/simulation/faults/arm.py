@@ -26,6 +26,7 @@ class FaultyArm:
     Attributes:
         began: when each motion began [s], for the referee.
         most_held: so many boxes hung on it together when a motion after the lift began.
+        fell: when each box was pulled off the cups [s].
         watchers: told of each motion before it begins.
     """
 
@@ -45,6 +46,7 @@ class FaultyArm:
         self._torque = False
         self.began: list[float] = []
         self.most_held = 0
+        self.fell: dict[int, float] = {}
         self.watchers: list[Callable[[Trajectory], None]] = []
 
     def joints(self) -> Joints:
@@ -132,6 +134,7 @@ class FaultyArm:
     def _drop(self) -> str | None:
         for box in self._world.suction.held_boxes:
             self._world.suction.detach(box, self._world.now)
+            self.fell[box] = self._world.now
         self._world.wake()
         return None
 
