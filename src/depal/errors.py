@@ -14,6 +14,7 @@
     │   └── FaultError      a file of faults that cannot be used
     ├── DeviceError         a device does not do what it was told
     ├── JournalError        a journal that is damaged, edited, or of another version
+    ├── UnwrittenError      what must be written before anything moves cannot be written
     └── MissingPartError    an optional part that is not installed
 
 A message says what is wrong, where, what was expected, and what exists.
@@ -40,6 +41,7 @@ __all__ = [
     "RequestError",
     "SettingError",
     "TaskError",
+    "UnwrittenError",
     "did_you_mean",
 ]
 
@@ -155,6 +157,10 @@ class DeviceError(DepalError):
 
 class JournalError(DepalError):
     """A journal that is damaged, edited, or written by another version; nothing moves on it."""
+
+
+class UnwrittenError(DepalError):
+    """What must be written before anything moves cannot be: the run has stopped where it was."""
 
 
 class MissingPartError(DepalError):

@@ -1,6 +1,7 @@
 """A shift that does not go well: nobody waits for ever, and nothing is forgotten."""
 
 import asyncio
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -12,12 +13,14 @@ from depal.app.serve.pictures import Picture
 from depal.app.serve.seeing import Seen
 from depal.app.serve.session import Session, Stage, Surroundings
 from depal.app.serve.shift import Shift
+from depal.cell.bookkeeping import GO_ON, HOPELESS
 from depal.cell.departures import Departure, Fate
 from depal.cell.files import shipped_cell
 from depal.cell.ledger import Found, KeptBox, Ledger, LeftBox, Page
 from depal.domain import Approach, BoxId
-from depal.errors import DeviceError
+from depal.errors import DepalError, DeviceError, JournalError
 from depal.executive.clock import LoopClock, run_simulated
+from depal.executive.journal import SqliteJournal
 from depal.geometry import OrientedBox
 from depal.logistics.placing import Spot
 from depal.logistics.store import LocalStore, by_storage
@@ -78,6 +81,116 @@ def test_a_run_that_fails_is_over_and_the_next_one_may_be_started(
 
     versions = [state.version for state in run_simulated(shift())]
     assert versions == sorted(versions)
+
+
+class Full:
+    """A disk that takes no journal, no ledger and no data of the store while it is full."""
+
+    def __init__(self, patched: pytest.MonkeyPatch) -> None:
+        """Not full."""
+        self.full = False
+        for kind, name, error in (
+            (SqliteJournal, "append", JournalError),
+            (Ledger, "write", JournalError),
+            (LocalStore, "note", DeviceError),
+            (Notes, "asked", DeviceError),
+            (Notes, "answered", DeviceError),
+            (Notes, "request_ended", DeviceError),
+            (Notes, "run_ended", DeviceError),
+        ):
+            patched.setattr(kind, name, self._on_it(getattr(kind, name), error))
+
+    def _on_it(self, write: Callable[..., object], error: type[DepalError]) -> object:
+        def written(*args: object, **named: object) -> object:
+            if self.full:
+                message = "the disk is full"
+                raise error(message)
+            return write(*args, **named)
+
+        return written
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("after", [1.0, 4.3, 6.1, 7.7, 9.5, 11.2, 14.0, 18.0])
+@pytest.mark.parametrize("answer", [GO_ON, HOPELESS], ids=["goes on", "is started anew"])
+def test_a_full_disk_holds_the_cell_and_with_room_again_it_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, after: float, answer: str
+) -> None:
+    """At any moment, answered on the screen or by Start: nothing lost, nothing doubled."""
+
+    async def shift() -> None:
+        means, world, notes, clock, store = around(tmp_path)
+        disk, told = Full(monkeypatch), list[CellState]()
+        day = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        await day.start(Order(1, DELIVERY))
+        await asyncio.sleep(after)
+        disk.full = True
+        await asyncio.sleep(30.0)
+        state = told[-1]
+        assert state.mode is Mode.HELD
+        (question,) = state.questions
+        assert "cannot be written" in question.text
+        assert [alarm.id for alarm in state.alarms if alarm.urgent] == [question.id]
+        still = world.arm.joints()
+        disk.full = answer != GO_ON
+        day.answer(question.id, answer, "somebody")
+        await asyncio.sleep(1.0)
+        if answer == HOPELESS:
+            assert world.arm.joints() == pytest.approx(still, abs=1e-6)
+            assert (told[-1].mode, [a.id for a in told[-1].alarms]) == (Mode.HELD, ["unwritten"])
+            disk.full = False
+            await day.start(None)
+        await asyncio.sleep(200.0)
+        assert told[-1].mode is Mode.COMPLETE
+        assert (told[-1].stored, told[-1].lost, told[-1].aside) == (3, 0, 0)
+        movements = store.movements()
+        assert len({movement.box for movement in movements}) == len(movements) == len(THREE)
+        indices, referee = world.cell.witness.indices, world.cell.referee
+        assert all(referee.where(indices[each.box]) == each.place for each in movements)
+        assert referee.summary().collisions == ()
+        assert [state for _, state, _ in notes.runs] == ["done"]
+        await day.end()
+
+    run_simulated(shift())
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("by_safety", [True, False], ids=["emergency stop", "error of the arm"])
+def test_after_a_stop_nothing_moves_until_somebody_says_start(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, *, by_safety: bool
+) -> None:
+    """Aborted after the one, Held after the other: the mode follows from the facts."""
+
+    async def shift() -> None:
+        means, world, notes, clock, _ = around(tmp_path)
+        told = list[CellState]()
+        day = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        await day.start(Order(1, DELIVERY))
+        await asyncio.sleep(6.0)
+        with monkeypatch.context() as patched:
+            if by_safety:
+                world.safety.stopped = True
+            else:
+                patched.setattr("depal.simulation.devices.SimulatedArm.follow", refuses)
+            await asyncio.sleep(20.0)
+            day.tell()
+            assert told[-1].mode is (Mode.ABORTED if by_safety else Mode.HELD)
+        stands = world.arm.joints()
+        world.safety.stopped = False
+        await asyncio.sleep(60.0)
+        day.tell()
+        assert told[-1].mode is (Mode.ABORTED if by_safety else Mode.HELD)
+        assert world.arm.joints() == pytest.approx(stands, abs=1e-6)
+        (question,) = told[-1].questions
+        day.answer(question.id, "start", "somebody")
+        await asyncio.sleep(200.0)
+        assert (told[-1].mode, told[-1].stored) == (Mode.COMPLETE, 3)
+        await day.end()
+
+    async def refuses(*_: object) -> str | None:
+        raise DeviceError("the arm met something")
+
+    run_simulated(shift())
 
 
 def session_over(folder: Path) -> tuple[Session, WorldHere]:

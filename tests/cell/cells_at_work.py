@@ -2,10 +2,11 @@
 
 import asyncio
 import re
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from depal.app.run.record import Keeper
+from depal.cell.bookkeeping import Bookkeeping, WrittenArm, WrittenGripper
 from depal.cell.controller import Controller
 from depal.cell.departures import Fate
 from depal.cell.files import shipped_cell
@@ -32,6 +33,7 @@ from depal.domain import (
 )
 from depal.executive import events as ev
 from depal.executive.clock import LoopClock, run_simulated
+from depal.executive.journal import Journal
 from depal.geometry import OrientedBox, Vector3
 from depal.logistics.placing import Standing
 from depal.ports import Question
@@ -115,7 +117,8 @@ class Cell:
         layout: of the cell.
         settings: of the run.
         full: places in which nothing has room.
-        record: the journal and what is learned of it.
+        disk: what becomes of the journal on it.
+        page: writes a page of the ledger.
     """
 
     boxes: int = 3
@@ -129,6 +132,8 @@ class Cell:
     bays: FakeBays = field(default_factory=FakeBays)
     places: Mapping[Gtin, tuple[PlaceId, ...]] | None = None
     refuses: frozenset[int] = frozenset()
+    disk: Callable[[Journal], Journal] = lambda journal: journal
+    page: Callable[[], None] = lambda: None
     seed: int = 0
     events: list[ev.Event] = field(default_factory=list)
     choices: list[ChoiceNote] = field(default_factory=list)
@@ -140,6 +145,7 @@ class Cell:
     work: Workplace = field(init=False)
     desk: MotionDesk = field(init=False)
     times: Timekeeper = field(init=False)
+    books: Bookkeeping = field(init=False)
     sha256: str = field(init=False, default="")
     ended: float = field(init=False, default=0.0)
     still_held: bool = field(init=False, default=False)
@@ -165,6 +171,12 @@ class Cell:
         )
         ports = timed(ports, self.times)
         questions = Questions(ports.person, clock)
+        self.books = Bookkeeping(questions)
+        ports = replace(
+            ports,
+            arm=WrittenArm(ports.arm, self.books),
+            gripper=WrittenGripper(ports.gripper, self.books),
+        )
         self.work = Workplace(self.layout, note(self.boxes), ports, self.settings, questions)
         self.desk = MotionDesk(self.work, Planner(self.work, self.times, seed=self.seed))
         for place in self.full:
@@ -187,7 +199,9 @@ class Cell:
         notes.listen(self._heard, self.choices.append)
         with Keeper.open(None, tasks) as keeper:
             keeper.listen_to(notes)
-            controller = Controller(self.work, self.desk, notes, tasks, keeper.journal)
+            journal = self.disk(keeper.journal)
+            controller = Controller(self.work, self.desk, notes, tasks, journal, books=self.books)
+            self.work.keep = self.books.keeping(self.page)
             await asyncio.wait_for(controller.empty_pallet(requests), LONG)
             self.sha256 = keeper.events_sha256
         self.ended = self.work.now

@@ -1,10 +1,15 @@
 """`depal study faults`, `depal run --faults` and `depal schema faults` as commands."""
 
 import json
+import resource
+import subprocess
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
+
+from depal.executive.journal import SqliteJournal
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -50,3 +55,29 @@ def test_the_schema_of_faults_names_them_all(depal: Run) -> None:
     status, printed, _ = depal("schema", "faults")
     assert status == 0
     assert "G3" in json.loads(printed)["$defs"]["FaultEntry"]["properties"]["fault"]["enum"]
+
+
+@pytest.mark.slow
+def test_a_record_that_the_disk_does_not_take_is_one_error_and_what_is_written_is_whole(
+    tmp_path: Path,
+) -> None:
+    """No file grows beyond 300 KiB: the run stops where it was, and its record can be replayed."""
+    record = tmp_path / "record"
+    words = ("run", "case2", "--perception", "truth", "--record", str(record))
+
+    def little_room() -> None:
+        limit = 300 * 1024
+        resource.setrlimit(resource.RLIMIT_FSIZE, (limit, limit))
+
+    ran = subprocess.run(  # noqa: S603 - our own command
+        [sys.executable, "-c", "from depal.cli.main import main; main()", *words],
+        capture_output=True,
+        text=True,
+        check=False,
+        preexec_fn=little_room,
+    )
+    assert ran.returncode == 1
+    (said,) = ran.stderr.splitlines()
+    assert said.startswith("error: the cell has stopped where it was: ")
+    with SqliteJournal(record / "journal.db", readonly=True) as journal:
+        assert journal.verify() > 0

@@ -259,6 +259,48 @@ def test_what_cannot_be_written_is_not_done() -> None:
     assert [name for _, name, _ in world.done] in (["kr60_reach"], ["kr60_reach", "kr60_grasp"])
 
 
+@given(full=st.dictionaries(st.integers(1, 30), st.integers(1, 3), max_size=4))
+@settings(max_examples=30, deadline=None)
+def test_a_journal_that_takes_nothing_for_a_while_loses_and_doubles_nothing(
+    full: dict[int, int],
+) -> None:
+    """Whichever writes fail, and however often: in the end it is as if none had."""
+
+    class Sometimes(MemoryJournal):
+        tried = 0
+
+        def append(self, entries, *, durable):  # type: ignore[no-untyped-def] # noqa: ANN001, ANN202
+            number = len(self.commits) + 1
+            if full.get(number, 0) > 0:
+                full[number] -= 1
+                message = "the disk is full"
+                raise JournalError(message)
+            return super().append(entries, durable=durable)
+
+    world, journal = World(), Sometimes()
+
+    async def work() -> list[JournalError]:
+        told: list[JournalError] = []
+        runtime = runtime_of(world, journal)
+        runtime.wait_to_write(told.append)
+        runtime.allocate(Call("store", ("b1",)), Call("store", ("b2",)))
+        for _ in range(200):
+            await asyncio.sleep(0.5)
+            done = len(world.done)
+            if runtime.write_again():
+                continue
+            assert len(world.done) == done  # nothing began
+        assert runtime.idle
+        return told
+
+    written = sum(full.values())
+    told = run_simulated(work())
+    assert len(told) == written - sum(full.values())
+    assert all(world.truth[f"b{i}.stored"] for i in (1, 2))
+    assert sum(name == "kr60_release" for _, name, _ in world.done) == 2
+    restored(STORE, events_of(journal))
+
+
 async def go_on(world: World, journal: MemoryJournal, at: float) -> Runtime:
     """A restart from a journal: folds, probes, is held, and a person says Start."""
     del at

@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 
 from depal.cell.guards import Guards
+from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
 from depal.cell.primitives.bounding import Bounding
 from depal.cell.primitives.checking import Checking
@@ -11,6 +12,7 @@ from depal.cell.primitives.leaving import Leaving
 from depal.cell.primitives.minding import Minding
 from depal.cell.primitives.moving import Moving
 from depal.cell.primitives.querying import Querying
+from depal.cell.primitives.restarting import Restarting
 from depal.cell.primitives.seeing import Seeing
 from depal.cell.primitives.taking import Taking
 from depal.cell.reporting import Journalist
@@ -19,7 +21,7 @@ from depal.executive.runtime import Primitive
 
 
 def bindings(
-    work: Workplace, desk: Desk, notes: Journalist
+    work: Workplace, desk: Desk, notes: Journalist, arm: HaltingArm | None = None
 ) -> tuple[Mapping[str, Primitive], Mapping[str, Primitive]]:
     """The primitive of every action, and the probes."""
     guards = Guards(work.ports.arm, work.ports.gripper, work.ports.safety)
@@ -27,6 +29,7 @@ def bindings(
     checking, leaving = Checking(work, desk, guards), Leaving(work, desk, guards)
     querying, exchanging = Querying(work, desk), Exchanging(work, desk)
     minding, moving = Minding(work, desk), Moving(work, desk, guards)
+    restarting = Restarting(work, desk, guards, arm)
     primitives: dict[str, Primitive] = {
         "look": seeing.look,
         "select_box": seeing.select_box,
@@ -49,6 +52,9 @@ def bindings(
         "look_again": minding.look_again,
         "ask_decision": minding.ask_decision,
         "carry_on": minding.carry_on,
+        "ask_for_start": restarting.ask_for_start,
+        "check_safety": restarting.check_safety,
+        "draw_back": restarting.draw_back,
     }
     bounding = Bounding(work, desk, guards)
     primitives = {name: bounding.wrap(primitive) for name, primitive in primitives.items()}

@@ -117,7 +117,12 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
 
 
 def why_vague(work: Workplace, box: Perceived) -> str | None:
-    """Why a box that nobody could name may be no box, or two: the note knows no such size."""
+    """Why a box that nobody could name may be no box, or two: the note knows no such size.
+
+    A sight that is exact sees no two as one: what has an odd size there is shown to the reader.
+    """
+    if not work.pile.remembered:
+        return None
     unsized = box.id in work.pile.unsized
     if not work.delivery.lines or plausible(work.delivery, box.shape.size, unsized=unsized):
         return None
@@ -143,15 +148,19 @@ def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
     Args:
         work: what is believed.
         box: that was refused.
-        reason: why; what no box explains may be explained by the next look.
+        reason: why; what no box explains may be explained by the next look, and a way that was
+            not found may be found by another search.
     """
     vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
-    unclear = vague or box.id in work.pile.hidden or STRANGE in reason
+    unclear = vague or box.id in work.pile.hidden or STRANGE in reason or GAVE_UP in reason
     return box.id not in work.left_behind and unclear
 
 
 UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
 """Reasons that another look may take away."""
+
+GAVE_UP = "no free way"
+"""How a motion's reason begins where the search for it has come to its limit."""
 
 LADEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",

@@ -5,11 +5,14 @@ from collections.abc import Sequence
 
 from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
+from depal.cell.bookkeeping import Bookkeeping
+from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.safety import SafetyWatch
 from depal.cell.workplace import PALLET, Workplace
 from depal.domain import Request
+from depal.errors import UnwrittenError
 from depal.executive import events as ev
 from depal.executive.engine import Call, Engine
 from depal.executive.journal import Journal
@@ -31,6 +34,8 @@ class Controller:
         tasks: Repository,
         journal: Journal,
         engine: Engine | None = None,
+        books: Bookkeeping | None = None,
+        arm: HaltingArm | None = None,
     ) -> None:
         """Binds every action of the task files to its primitive.
 
@@ -41,18 +46,23 @@ class Controller:
             tasks: what the cell can do.
             journal: written before anything is done.
             engine: folded from that journal; None for one that knows nothing.
+            books: asked by the arm and the gripper whether all is written; None for new ones.
+            arm: that goes on after a stop when `restart_arm` lets it; None where none stops.
 
         Raises:
             TaskError: the task files name an action that this cell does not know.
         """
         self.work = work
         self.desk = desk
-        primitives, probes = bindings(work, desk, notes)
+        primitives, probes = bindings(work, desk, notes, arm)
         self.runtime = Runtime(
             engine or Engine(tasks), journal, work.ports.clock, primitives, probes
         )
         work.bind(self.runtime)
         self.safety = SafetyWatch(work)
+        self.books = books or Bookkeeping(work.questions)
+        self.books.bind(self.runtime, self._fail)
+        self._failure: UnwrittenError | None = None
         self._notes = notes
         self._ended = asyncio.Event()
         self._answers = Answers(work, desk.promises, self._end_if_done)
@@ -77,14 +87,25 @@ class Controller:
             self.runtime.allocate(Call(EMPTY, (PALLET,)))
 
     async def finish(self) -> None:
-        """Waits until the pallet is empty and everything that was begun has ended."""
+        """Waits until the pallet is empty and everything that was begun has ended.
+
+        Raises:
+            UnwrittenError: the journal or the ledger takes nothing; all has stopped where it was.
+        """
         watching = asyncio.create_task(self.safety.keep())
         try:
             await self._ended.wait()
         finally:
             watching.cancel()
+        if self._failure is not None:
+            await self.runtime.close()
+            raise self._failure
         await self.work.outbox.emptied(PATIENCE)
         await self.runtime.close()
+
+    def _fail(self, error: UnwrittenError) -> None:
+        self._failure = error
+        self._ended.set()
 
     def _heard(self, last: int, events: Sequence[ev.Event]) -> None:
         """Every step of the executive: notes it, and answers faults once the step is over."""

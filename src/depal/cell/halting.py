@@ -1,31 +1,25 @@
-"""The arm has stopped where it should not have: a person says start, then it gets clear.
+"""An arm that has stopped where it should not have: nothing moves it until the task is through.
 
-RELIABILITY's M5 to M7: after a safety stop, an error of the arm or a path that it has left nothing
-moves until a person has seen to it and has said start. Then the arm draws back to where plans can
-begin, with whatever it holds, and the action that it was in fails: the executive begins it anew.
+RELIABILITY's M5 to M7: after a safety stop, an error of the arm or a path that it has left the fact
+`kr60.stopped` says why, and `restart_arm` of the task files does the rest: a person is asked, the
+safety inputs must be good, the arm draws back. Then the action that it was in fails, and the
+executive begins it anew.
 """
 
+import asyncio
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from depal.cell.clearing import get_clear
-from depal.cell.guards import Guards
-from depal.cell.hand import Phase
-from depal.cell.planning.desk import Desk
-from depal.cell.workplace import Held, Workplace
+from depal.cell.workplace import FIRST, Workplace
 from depal.domain import Joints
 from depal.errors import DeviceError
-from depal.ports import Arm, Guard, Question, Trajectory
+from depal.executive.engine import Call
+from depal.ports import Arm, Guard, Trajectory
 
-START, HOPELESS = "start", "it cannot go on now"
+RESTART, KR60 = "restart_arm", "kr60"
 
-OFTEN = 5
-"""A person is asked so often in a row before the arm gives up."""
-
-ARM = "arm"
-"""What the questions are about."""
-
-ARM_AT = "kr60.at"
+STOPPED, ABORTED = f"{KR60}.stopped", f"{KR60}.aborted"
+"""The facts: why it stopped; whether the safety controller has stopped it."""
 
 
 class HaltedError(DeviceError):
@@ -34,24 +28,24 @@ class HaltedError(DeviceError):
 
 @dataclass(slots=True)
 class HaltingArm:
-    """An arm that goes on after a stop only when a person has said so.
+    """An arm that goes on after a stop only when the task `restart_arm` has let it.
 
     Attributes:
         arm: behind it.
         work: what the cell believes; bound once it is there.
-        desk: plans the way out.
-        stops: how often it has stopped.
+        error: why it stands; None where it does not.
     """
 
     arm: Arm
     work: Workplace | None = None
-    desk: Desk | None = None
-    stops: int = 0
-    _clearing: bool = field(default=False)
+    error: DeviceError | None = None
+    _over: asyncio.Event = field(default_factory=asyncio.Event)
+    _free: bool = False
+    _clearing: "asyncio.Task[object] | None" = None
 
-    def bind(self, work: Workplace, desk: Desk) -> None:
+    def bind(self, work: Workplace) -> None:
         """The cell that it works in."""
-        self.work, self.desk = work, desk
+        self.work = work
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
@@ -68,61 +62,41 @@ class HaltingArm:
             HaltedError: it stopped, and may be moved again, from where it is now.
             DeviceError: it stopped, and may not.
         """
+        if self.work is None or asyncio.current_task() is self._clearing:
+            return await self.arm.follow(trajectory, guard)
+        if self.error is not None:
+            await self._freed(self.error)
         try:
             return await self.arm.follow(trajectory, guard)
         except DeviceError as error:
-            if self._clearing or self.work is None or self.desk is None:
-                raise
-            await self._go_on(self.work, self.desk, error)
-            raise HaltedError(str(error)) from error
+            if self.error is None:
+                self._stops(self.work, error)
+            await self._freed(error)
+            raise
 
-    async def _go_on(self, work: Workplace, desk: Desk, error: DeviceError) -> None:
-        for _ in range(OFTEN):
-            await self._ask(work, error)
-            if work.ports.safety.state().stopped or work.ports.safety.state().gate_open:
-                continue
-            try:
-                await self._get_clear(work, desk)
-            except DeviceError as again:
-                error = again
-                continue
-            return
-        raise error
+    def _stops(self, work: Workplace, error: DeviceError) -> None:
+        self.error, self._free = error, False
+        self._over.clear()
+        safety = work.ports.safety.state()
+        aborted = safety.stopped or safety.gate_open
+        work.tell([(STOPPED, str(error)), (ABORTED, aborted)], "arm")
+        work.allocate(Call(RESTART, (KR60,), FIRST))
 
-    async def _ask(self, work: Workplace, error: DeviceError) -> None:
-        self.stops += 1
-        question = Question(
-            f"stopped/{self.stops}",
-            f"The arm has stopped: {error}. Please see that nobody is in the cell, clear the "
-            "cause, reset it, and say start.",
-            (START, HOPELESS),
-            ARM,
-        )
-        if await work.questions.ask(question) != START:
+    async def _freed(self, error: DeviceError) -> None:
+        """Waits until it may move again, and says so; or that it may not."""
+        await self._over.wait()
+        if not self._free:
             raise error
+        raise HaltedError(str(error)) from error
 
-    async def _get_clear(self, work: Workplace, desk: Desk) -> None:
-        """Back to where plans can begin; a box that is being set down stays where it is."""
-        hand = work.hand
-        if hand is not None and hand.phase is Phase.LOWERING:
-            return
-        vacuum = any(value > 0.0 for value in work.ports.gripper.vacuum().values())
-        facts: list[tuple[str, bool | None]] = [(ARM_AT, None)]
-        if hand is not None and hand.phase is Phase.GRASPING and vacuum and work.held is None:
-            work.lifted(Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond))
-            facts.append((f"{hand.box}.taken", True))
-        guards = Guards(work.ports.arm, work.ports.gripper, work.ports.safety)
-        desk.promises.next_start = None
-        self._clearing = True
-        try:
-            lost = await get_clear(work, desk, guards.holding() if work.held is not None else None)
-        finally:
-            self._clearing = False
-        if lost is not None and work.held is not None:
-            box = work.held.box
-            await work.ports.gripper.release()
-            work.dropped(box)
-        work.tell(facts, "arm")
+    def clearing(self, *, begins: bool) -> None:
+        """The running task alone may move it: it draws back."""
+        self._clearing = asyncio.current_task() if begins else None
+
+    def ends(self, *, free: bool) -> None:
+        """The stop is over: it has drawn back, or nobody can help."""
+        self.error, self._free = None, free
+        self._over.set()
 
 
 async def moved_away(arm: Arm, *ways: Trajectory | None) -> None:

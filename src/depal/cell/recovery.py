@@ -15,6 +15,7 @@ from depal.cell.guards import Guards
 from depal.cell.hand import Hand, Phase
 from depal.cell.ledger.reconciling import Found, Sensed, reconcile
 from depal.cell.planning.desk import Desk
+from depal.cell.primitives.restarting import OVER
 from depal.cell.stock import movement_id
 from depal.cell.workplace import FIRST, Held, Workplace
 from depal.domain import BoxId
@@ -67,6 +68,7 @@ class Recovery:
         return self.found
 
     def _takes_over(self, hand: Hand) -> None:
+        self._desk.promises.gone(hand.box)  # it hangs: its spot is free
         held = Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
         if self._work.departures.has_left(hand.box):
             self._work.held = held
@@ -114,6 +116,7 @@ class Recovery:
         if self.found is Found.HOLDING:
             self._takes_over(hand)
         elif answer == TAKEN:
+            self._desk.promises.gone(hand.box)
             self._work.ended(hand.box, Fate.BY_PERSON, reason="taken after a restart")
 
     async def _settle(self) -> None:
@@ -146,9 +149,11 @@ class Recovery:
             case Found.SET_DOWN | Found.PLACED if hand.place is not None:
                 await self._placed(hand)
             case Found.DROPPED:
+                self._desk.promises.gone(box)
                 work.dropped(box)
                 self._facts(hand, taken=False)
             case _:
+                self._desk.promises.gone(box)
                 work.lets_go()
                 self._facts(hand, taken=False)
 
@@ -181,10 +186,12 @@ class Recovery:
         facts = work.runtime.engine.state.facts
         for departure in work.departures.sequence:
             box, place = departure.box, departure.place
-            if departure.fate is Fate.STORED and place and not facts.get(f"{box}.stored"):
+            if departure.fate is Fate.STORED and place:
+                # Told before or not: it counts once.
                 name = movement_id(box, place)
-                moved = Movement(name, box, departure.gtin, place, work.now)
-                await work.outbox.tell(moved)
+                await work.outbox.tell(Movement(name, box, departure.gtin, place, work.now))
+                if facts.get(f"{box}.stored"):
+                    continue
                 work.tell([(f"{box}.taken", False), (f"{box}.stored", True)], "restart")
             elif departure.fate is Fate.SET_ASIDE and not facts.get(f"{box}.at"):
                 work.tell([(f"{box}.taken", False), (f"{box}.at", "aside")], "restart")
@@ -199,7 +206,7 @@ class Recovery:
                 self._work.runtime.withdraw(number, "the box has left the cell")
 
     def _forget_the_rest(self, hand: Hand | None) -> None:
-        """The arm is nowhere, and no box but the one in the hand is in it."""
+        """The arm is nowhere and stands clear, and no box but the one in the hand is in it."""
         facts = self._work.runtime.engine.state.facts
         held = None if hand is None or self.found is not Found.HOLDING else f"{hand.box}.taken"
         stale = [
@@ -207,7 +214,7 @@ class Recovery:
             for key, value in facts.items()
             if key.endswith(".taken") and value and key != held
         ]
-        self._work.tell([*stale, (ARM_AT, None)], "restart")
+        self._work.tell([*stale, (ARM_AT, None), *OVER], "restart")
 
     def _withdraw_what_waits(self) -> None:
         """What stands on the pallet is looked at and chosen anew: names may have changed."""

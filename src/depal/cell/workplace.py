@@ -306,6 +306,12 @@ class Workplace:
         self.tell([(f"{box}.taken", False), (f"{box}.on_floor", True)], "gripper")
         self.allocate(Call("recover", (box,), FIRST))
 
+    def fallen(self, box: BoxId) -> None:
+        """A box was seen, nobody has taken it, and it is gone: a person picks it up."""
+        self.ended(box, Fate.LOST, reason="fell off the pallet")
+        self.tell([(f"{box}.on_floor", True)], "camera")
+        self.allocate(Call("recover", (box,), FIRST))
+
     def deny(self, box: Perceived) -> None:
         """A box is not there, a person says: neither now nor later, as long as it looks so."""
         self.pile.forget(box.id, self.now)

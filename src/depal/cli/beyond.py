@@ -8,6 +8,7 @@ import typer
 
 from depal.cli.output import Dask, JsonFile, PlotFile, Seed, Workers
 from depal.cli.study import Pallets, check_targets, finish
+from depal.errors import SettingError
 
 beyond = typer.Typer()
 
@@ -231,24 +232,45 @@ def learning(  # noqa: PLR0913, PLR0917 - a command's options
 
 
 @beyond.command()
-def faults(
+def faults(  # noqa: PLR0913, PLR0917 - a command's options
     faults: Annotated[
         str, typer.Option(help="Ids of faults, with commas; all where none is named.")
     ] = "",
     seeds: Annotated[int, typer.Option(help="So many runs of each fault.", min=1)] = 3,
+    pairs: Annotated[
+        int, typer.Option(help="So many runs with two random faults of these.", min=0)
+    ] = 0,
     seed: Seed = 0,
     workers: Workers = 1,
     dask: Dask = None,
+    replay: Annotated[
+        str, typer.Option(help="Run this one again: G3:7, or G3+M7:7.", metavar="RUN")
+    ] = "",
+    record: Annotated[
+        Path | None, typer.Option(help="With --replay: keep its record in this new folder.")
+    ] = None,
     json_file: JsonFile = None,
     plot: PlotFile = None,
 ) -> None:
-    """Every fault alone: how the cell ends it, and whether anything is lost on the way."""
-    from depal.app.faults import FaultsAsked, faults_report, faults_rows  # noqa: PLC0415 - fast help
+    """Every fault alone, and pairs: how the cell ends them, and whether anything is lost."""
+    from depal.app.faults import (  # noqa: PLC0415 - fast help
+        FaultsAsked,
+        Piece,
+        faults_report,
+        faults_rows,
+        replay_report,
+        run_one,
+    )
     from depal.app.progress import progress_bar  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     check_targets(json_file, plot)
-    asked = FaultsAsked(faults, seeds, seed)
+    if record is not None and not replay:
+        raise SettingError("--record", "a study keeps no records", "--replay RUN beside it")
+    if replay:
+        finish(replay_report(run_one(Piece.of(replay), record)), json_file, plot)
+        return
+    asked = FaultsAsked(faults, seeds, seed, pairs)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Faults") as progress:
         runs = faults_rows(asked, executor, progress)

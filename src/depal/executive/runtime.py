@@ -5,7 +5,9 @@ idle executive does not wake up.
 """
 
 import asyncio
+from collections import deque
 from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -96,6 +98,9 @@ class Runtime:
         self._listeners: list[Callable[[int, Sequence[ev.Event]], None]] = []
         self._timer: asyncio.TimerHandle | None = None
         self._failure: JournalError | None = None
+        self._told: Callable[[JournalError], None] | None = None
+        self._unwritten: Step | None = None
+        self._inputs: deque[Callable[[float], Step]] = deque()
         self._unsnapped = 0
         self._check_bindings()
 
@@ -140,6 +145,30 @@ class Runtime:
         """Calls a function with the last sequence number and the events of every step."""
         self._listeners.append(listener)
 
+    def wait_to_write(self, told: Callable[[JournalError], None]) -> None:
+        """From now on a journal that takes nothing stops the executive, and raises nothing.
+
+        What has been decided and could not be written is not done, and what comes after it waits,
+        until `write_again` succeeds.
+
+        Args:
+            told: of every write that fails.
+        """
+        self._told = told
+
+    def write_again(self) -> bool:
+        """Writes what could not be written, and goes on with all that has come since.
+
+        Returns:
+            Whether everything is written.
+        """
+        if self._failure is not None and self._unwritten is not None:
+            step, self._failure = self._unwritten, None
+            self._go_through(step)
+            while self._inputs and self._failure is None:
+                self._do(self._inputs.popleft())
+        return self._failure is None
+
     @property
     def idle(self) -> bool:
         """Whether nothing runs and no timer is set."""
@@ -165,15 +194,20 @@ class Runtime:
 
     def _do(self, decide: Callable[[float], Step]) -> None:
         if self._failure is not None:
-            raise self._failure
-        step = decide(self.clock.now())
-        if step.events:
-            self._write(step)
+            if self._told is None:
+                raise self._failure
+            self._inputs.append(decide)
+            return
+        self._go_through(decide(self.clock.now()))
+
+    def _go_through(self, step: Step) -> None:
+        if step.events and not self._write(step):
+            return
         for command in step.commands:
             self._carry_out(command)
         self._set_timer()
 
-    def _write(self, step: Step) -> None:
+    def _write(self, step: Step) -> bool:
         """Writes before anything is done; fully synced where something may move."""
         entries = [Entry(event.at, type(event).__name__, encode(event)) for event in step.events]
         moves = any(
@@ -182,16 +216,25 @@ class Runtime:
         )
         try:
             last = self.journal.append(entries, durable=moves)
-            self._unsnapped += len(entries)
-            if self._unsnapped >= SNAPSHOT_EVERY:
-                self.journal.save_snapshot(last, freeze(self.engine.state))
-                self._unsnapped = 0
         except JournalError as error:
             # What is not written must not be done; the engine knows more than the journal now.
-            self._failure = error
-            raise
+            self._failure, self._unwritten = error, step
+            if self._told is None:
+                raise
+            self._told(error)
+            return False
+        self._unsnapped += len(entries)
+        if self._unsnapped >= SNAPSHOT_EVERY:
+            self._save_snapshot(last)
         for listener in self._listeners:
             listener(last, step.events)
+        return True
+
+    def _save_snapshot(self, last: int) -> None:
+        """A restart can do without it: where it cannot be kept, the next step tries again."""
+        with suppress(JournalError):
+            self.journal.save_snapshot(last, freeze(self.engine.state))
+            self._unsnapped = 0
 
     def _carry_out(self, command: Command) -> None:
         match command:
@@ -200,7 +243,9 @@ class Runtime:
             case Probe(attempt, action, args):
                 self._begin(attempt, action, args, self._probes[str(action.probe)], probing=True)
             case Stop(attempt, policy, reason):
-                task, context = self._running[attempt]
+                task, context = self._running.get(attempt, (None, None))
+                if task is None or context is None:
+                    return  # it has ended while nothing could be written
                 if policy is not Cancel.NEVER:
                     context.stop_reason = reason
                 if policy is Cancel.IMMEDIATE:
@@ -221,6 +266,7 @@ class Runtime:
         context = Context(attempt, action, given, facts, None, lambda: self._limits_on(attempt))
         task = asyncio.get_running_loop().create_task(self._run(context, function, probing=probing))
         self._running[attempt] = (task, context)
+        task.add_done_callback(lambda _: self._never_began(context))
 
     def _limits_on(self, attempt: int) -> Limits:
         """What an attempt must not exceed now; one that has ended moves nothing."""
@@ -246,7 +292,14 @@ class Runtime:
             report = Report(report.facts, Outcome.PROBED, report.reason)
         elif probing:
             report = Report((), Outcome.UNKNOWN, report.reason)
-        if self._running.pop(context.attempt, None) is not None and self._failure is None:
+        refused = self._failure is not None and self._told is None
+        if self._running.pop(context.attempt, None) is not None and not refused:
+            self._do(lambda at: self.engine.report(context.attempt, report, at))
+
+    def _never_began(self, context: Context) -> None:
+        """A primitive that was cancelled before its first step reports nothing by itself."""
+        if self._running.pop(context.attempt, None) is not None and context.stop_reason is not None:
+            report = Report(outcome=Outcome.CANCELLED, reason=context.stop_reason)
             self._do(lambda at: self.engine.report(context.attempt, report, at))
 
     def _set_timer(self) -> None:

@@ -1,87 +1,26 @@
 """The table of the faults: what ends as it should, and what does not."""
 
-from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 from matplotlib.figure import Figure
 from rich.console import RenderableType
 from rich.text import Text
 
+from depal.app.faults.rows import RECOVERED, Pairs, RecoveryRow, Row, wrongs
 from depal.app.faults.runs import FaultsAsked, Ran
 from depal.app.files import Json
 from depal.app.reports.report import Report, plain_table, verdict
-from depal.simulation.faults import CATALOGUE, End
+from depal.simulation.faults import CATALOGUE
 from depal.studies.drawing.faults import faults_figure
 
-WITHOUT = 0.95
-"""Of the faults that need nobody so many end without a person."""
-
-
-@dataclass(frozen=True, slots=True)
-class Row:
-    """One fault, all its seeds.
-
-    Attributes:
-        fault: its id.
-        seeds: how many runs.
-        struck: share of them in which it struck.
-        ended: share that ended in a state that the catalogue names.
-        invariants: share in which the invariants held.
-        without_person: share in which nobody was asked.
-        ends: how often each end came.
-    """
-
-    fault: str
-    seeds: int
-    struck: float
-    ended: float
-    invariants: float
-    without_person: float
-    ends: dict[str, int]
-
-    @classmethod
-    def of(cls, fault: str, runs: Sequence[Ran]) -> "Row":
-        """Sums up the runs of a fault; one that came to no end counts against everything."""
-        said = [run.verdict for run in runs if run.verdict is not None]
-        n = max(len(runs), 1)
-        return cls(
-            fault,
-            len(runs),
-            sum(one.struck for one in said) / n,
-            sum(one.ended for one in said) / n,
-            sum(not one.broken for one in said) / n,
-            sum(one.without_person for one in said) / n,
-            dict(Counter(" and ".join(one.ends) for one in said)),
-        )
-
-    @property
-    def needs_nobody(self) -> bool:
-        """Whether the catalogue names no person for it."""
-        return not {End.HELD, End.ABORTED} & set(CATALOGUE[self.fault].ends)
-
-    @property
-    def holds(self) -> bool:
-        """Whether it meets the figures."""
-        alone = self.without_person >= WITHOUT or not self.needs_nobody
-        return self.struck > 0 and self.ended == self.invariants == 1.0 and alone
+HEADS = ("fault", "what", "seeds", "struck", "ended", "invariants", "without a person", "how", "")
 
 
 def faults_report(runs: Sequence[Ran], asked: FaultsAsked, seconds: float) -> Report:
-    """The report of `depal study faults`; it holds when every row meets the figures."""
-    rows = [Row.of(name, [run for run in runs if run.fault == name]) for name in asked.ids]
-    table = plain_table(
-        "Faults, one in each run",
-        "fault",
-        "what",
-        "seeds",
-        "struck",
-        "ended",
-        "invariants",
-        "without a person",
-        "how",
-        "",
-    )
+    """The report of `depal study faults`; it holds when everything meets the figures."""
+    rows = [Row.of(name, [run for run in runs if run.piece.ids == (name,)]) for name in asked.ids]
+    pairs, recovery = Pairs.of(runs), RecoveryRow.of(runs)
+    table = plain_table("Faults, one in each run", *HEADS)
     for row in rows:
         table.row(
             row.fault,
@@ -95,11 +34,53 @@ def faults_report(runs: Sequence[Ran], asked: FaultsAsked, seconds: float) -> Re
             verdict(row.holds, "met", "missed"),
         )
     shown: list[RenderableType] = [table]
-    shown += [Text(line, style="red") for run in runs for line in _wrongs(run)]
+    if pairs.n:
+        shown.append(Text(f"pairs: {pairs.n}, of which {len(pairs.broken)} broke an invariant"))
+    shown.append(
+        Text(
+            f"recovery, the software's part: {recovery.n}, median {recovery.median:.2f} s, "
+            f"95 % within {recovery.p95:.2f} s"
+        )
+    )
+    shown.append(Text(f"{seconds / max(len(runs), 1):.2f} s a run"))
+    shown += [Text(line, style="red") for run in runs for line in wrongs(run)]
+    holds = all(row.holds for row in rows) and not pairs.broken and recovery.p95 <= RECOVERED
+    fields = _fields(runs, asked, rows, pairs, recovery)
+    return Report({**fields, "seconds": seconds}, shown, lambda: _figure(rows), holds=holds)
+
+
+def replay_report(run: Ran) -> Report:
+    """The report of one run that was run again."""
+    said = run.verdict
+    table = plain_table(str(run.piece), "", "")
+    table.row("events", run.events_sha256)
+    table.row("checks", str(run.checks))
+    table.row("ended", "no end" if said is None else " and ".join(said.ends))
+    shown: list[RenderableType] = [table]
+    shown += [Text(line, style="red") for line in wrongs(run)]
     fields: dict[str, Json] = {
+        "replayed": str(run.piece),
+        "events_sha256": run.events_sha256,
+        "ended": said is not None and said.ended,
+        "ends": [] if said is None else list(said.ends),
+        "wrong": list(wrongs(run)),
+    }
+    return Report(fields, shown, holds=not wrongs(run))
+
+
+def _fields(
+    runs: Sequence[Ran],
+    asked: FaultsAsked,
+    rows: Sequence[Row],
+    pairs: Pairs,
+    recovery: RecoveryRow,
+) -> dict[str, Json]:
+    """What `--json` writes."""
+    return {
         "seed": asked.seed,
         "seeds": asked.seeds,
-        "seconds": seconds,
+        "runs": len(runs),
+        "checks": sum(run.checks for run in runs),
         "rows": [
             {
                 "fault": row.fault,
@@ -112,19 +93,16 @@ def faults_report(runs: Sequence[Ran], asked: FaultsAsked, seconds: float) -> Re
             }
             for row in rows
         ],
-        "wrong": [line for run in runs for line in _wrongs(run)],
+        "pairs": {
+            "n": pairs.n,
+            "broken": [
+                {"faults": list(run.piece.ids), "seed": run.piece.seed, "wrong": list(wrongs(run))}
+                for run in pairs.broken
+            ],
+        },
+        "recovery": {"n": recovery.n, "median": recovery.median, "p95": recovery.p95},
+        "wrong": [line for run in runs for line in wrongs(run)],
     }
-    return Report(fields, shown, lambda: _figure(rows), holds=all(row.holds for row in rows))
-
-
-def _wrongs(run: Ran) -> list[str]:
-    name = f"{run.fault}, seed {run.seed}"
-    if run.verdict is None:
-        return [f"{name}: no end: {run.reason}"]
-    said = [f"{name}: {line}" for line in run.verdict.broken]
-    if not run.verdict.ended:
-        said.append(f"{name}: ended otherwise: {' and '.join(run.verdict.ends)}")
-    return said
 
 
 def _figure(rows: Sequence[Row]) -> Figure:

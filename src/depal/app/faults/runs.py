@@ -1,18 +1,33 @@
 """The runs of the study, in worker processes."""
 
+import time
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from pathlib import Path
 
+import numpy as np
+
+from depal.app.faults.pieces import Piece, known, pairs_of
 from depal.app.faults.verdicts import Verdict, verdict_of
 from depal.app.run.job import run_job
+from depal.app.run.summary import Outcome
 from depal.app.run.values import Job
 from depal.cell.files import find_cell
 from depal.cell.workplace import Settings
-from depal.domain import EURO_PALLET, Delivery, DeliveryLine, Gtin, Product, StackedCase
-from depal.errors import SettingError, did_you_mean
+from depal.domain import (
+    EURO_PALLET,
+    BoxId,
+    Delivery,
+    DeliveryLine,
+    Gtin,
+    Product,
+    Request,
+    StackedCase,
+)
+from depal.errors import SettingError
 from depal.geometry import Vector3
-from depal.simulation.faults import CATALOGUE, Fault, FaultPlan
+from depal.simulation.faults import CATALOGUE, FaultPlan
 from depal.simulation.truth_sight import SightSettings
 from depal.studies.sweep import Progress, no_progress, sweep
 
@@ -32,6 +47,9 @@ SOME = 0.3
 HORIZON = 20_000.0
 """A run that has not ended by then never will [s]."""
 
+SOON = 15.0
+"""Requests come within this time [s]."""
+
 
 @dataclass(frozen=True, slots=True)
 class FaultsAsked:
@@ -41,11 +59,13 @@ class FaultsAsked:
         faults: ids with commas between them; "" for all.
         seeds: runs of each.
         seed: the first.
+        pairs: runs with two random ones of them.
     """
 
     faults: str = ""
     seeds: int = 3
     seed: int = 0
+    pairs: int = 0
 
     @property
     def ids(self) -> tuple[str, ...]:
@@ -54,12 +74,20 @@ class FaultsAsked:
         Raises:
             SettingError: the catalogue has none of that name.
         """
-        names = [name.strip() for name in self.faults.split(",") if name.strip()]
-        for name in names:
-            if name not in CATALOGUE:
-                exists = did_you_mean(name, CATALOGUE)
-                raise SettingError("--faults", f"unknown fault {name!r}", exists=exists)
-        return tuple(names or CATALOGUE)
+        return known(self.faults.split(","), "--faults") or tuple(CATALOGUE)
+
+    @property
+    def pieces(self) -> list[Piece]:
+        """Every fault with every seed, then the pairs.
+
+        Raises:
+            SettingError: the catalogue has none of a name, or pairs of one fault are asked for.
+        """
+        if self.pairs and len(self.ids) < 2:  # noqa: PLR2004 - a pair
+            raise SettingError("--pairs", "one fault makes no pair", "two or more --faults")
+        seeds = range(self.seed, self.seed + self.seeds)
+        alone = [Piece((name,), seed) for name in self.ids for seed in seeds]
+        return [*alone, *(pairs_of(self.ids, self.pairs, self.seed) if self.pairs else ())]
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,62 +95,81 @@ class Ran:
     """One run.
 
     Attributes:
-        fault: which was to strike.
-        seed: of the run.
+        piece: which.
         verdict: on it; None where the run came to no end.
         reason: why it came to none.
+        recoveries: real time from the notice of each fault to the next motion [s].
+        checks: how often the invariants were checked.
+        seconds: it took, of real time.
+        events_sha256: of its event log.
     """
 
-    fault: str
-    seed: int
+    piece: Piece
     verdict: Verdict | None
     reason: str = ""
+    recoveries: tuple[float, ...] = ()
+    checks: int = 0
+    seconds: float = 0.0
+    events_sha256: str = ""
 
 
 def faults_rows(
     asked: FaultsAsked, executor: Executor | None = None, progress: Progress = no_progress
 ) -> list[Ran]:
-    """Every fault with every seed: three boxes, one fault, at a step and in a phase of the seed.
+    """Every fault with every seed, then pairs: three boxes, at steps and in phases of the seed.
 
     Raises:
         SettingError: a fault that is not in the catalogue.
     """
-    pieces = [
-        (name, seed) for name in asked.ids for seed in range(asked.seed, asked.seed + asked.seeds)
-    ]
-    return sweep(run_one, pieces, executor, progress)
+    return sweep(run_one, asked.pieces, executor, progress)
 
 
-def run_one(piece: tuple[str, int]) -> Ran:
+def run_one(piece: Piece, record: Path | None = None) -> Ran:
     """One run, in whatever process; a run that breaks down is a result of the study.
 
-    Where the fault found no chance at its step, it takes the first that it gets.
+    Where the faults found no chance at their steps, they take the first that they get.
+
+    Args:
+        piece: which.
+        record: a folder to keep its record in.
     """
-    fault_id, seed = piece
-    job = job_of(fault_id, seed)
+    began, job = time.perf_counter(), job_of(piece)
     try:
-        verdict = verdict_of(fault_id, run_job(job))
-        if not verdict.struck:
-            first = replace(job, faults=FaultPlan((Fault(fault_id),)))
-            verdict = verdict_of(fault_id, run_job(first))
+        outcome = run_job(job)
+        if not outcome.struck:
+            job = replace(job, faults=FaultPlan.of(*piece.ids))
+            outcome = run_job(job)
+        if record is not None:
+            outcome = run_job(job, record=record)
     except Exception as error:  # noqa: BLE001 - whatever it is, it is what we report
-        return Ran(fault_id, seed, None, f"{type(error).__name__}: {error}")
-    return Ran(fault_id, seed, verdict)
+        return Ran(piece, None, f"{type(error).__name__}: {error}")
+    return _ran(piece, outcome, time.perf_counter() - began)
 
 
-def job_of(
-    fault_id: str, seed: int, cases: Sequence[tuple[Vector3, Vector3, float]] = CASES
-) -> Job:
-    """A small delivery in the default cell, and one fault."""
-    sight = SightSettings(sigma=0.001, unrecognised=UNRECOGNISED.get(fault_id, SOME))
+def _ran(piece: Piece, outcome: Outcome, seconds: float) -> Ran:
+    return Ran(
+        piece,
+        verdict_of(outcome, *piece.ids),
+        recoveries=outcome.recoveries,
+        checks=outcome.checks,
+        seconds=seconds,
+        events_sha256=outcome.events_sha256,
+    )
+
+
+def job_of(piece: Piece, cases: Sequence[tuple[Vector3, Vector3, float]] = CASES) -> Job:
+    """A small delivery in the default cell, requests, and what is to strike."""
+    unrecognised = max(UNRECOGNISED.get(fault_id, SOME) for fault_id in piece.ids)
+    delivery = delivery_of(cases)
     return Job(
         find_cell("default"),
-        delivery_of(cases),
-        (),
+        delivery,
+        requests_of(delivery, piece.seed),
         Settings(),
-        seed,
-        sight,
-        faults=FaultPlan.at_random(fault_id, seed, len(cases)),
+        piece.seed,
+        SightSettings(sigma=0.001, unrecognised=unrecognised),
+        faults=FaultPlan.at_random(piece.ids, piece.seed, len(cases)),
+        inspected=True,
         horizon=HORIZON,
     )
 
@@ -139,3 +186,16 @@ def delivery_of(cases: Sequence[tuple[Vector3, Vector3, float]]) -> Delivery:
         for code, (corner, size, _) in zip(codes, cases, strict=True)
     ]
     return Delivery("faults", EURO_PALLET, tuple(lines), tuple(stack))
+
+
+def requests_of(delivery: Delivery, seed: int) -> tuple[Request, ...]:
+    """Two wishes for products and one for a box, some of which nothing may serve."""
+    random = np.random.default_rng([seed, 22])
+    products = [line.product.gtin for line in delivery.lines]
+    wanted = random.integers(len(products), size=3).tolist()
+    priorities, times = random.random(3).tolist(), (SOON * random.random(3)).tolist()
+    return (
+        Request(priorities[0], gtin=products[wanted[0]], arrived=times[0]),
+        Request(priorities[1], gtin=products[wanted[1]], arrived=times[1]),
+        Request(priorities[2], box=BoxId(f"b{wanted[2] + 1}"), arrived=times[2]),
+    )

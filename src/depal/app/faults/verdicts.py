@@ -3,13 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from depal.app.run.inspecting import DECISION, undue
 from depal.app.run.summary import Outcome
+from depal.cell.bookkeeping import RECORDS
 from depal.cell.departures import Fate
-from depal.cell.halting import ARM
+from depal.cell.primitives.restarting import ARM
 from depal.simulation.faults import CATALOGUE, End
-
-DECISION = "decision/"
-"""How questions about a box on the floor begin."""
 
 SPARE = 1e-6
 """Two things happen at the same time when they are no further apart [s]."""
@@ -34,10 +33,12 @@ class Verdict:
     ends: tuple[str, ...] = ()
 
 
-def verdict_of(fault_id: str, outcome: Outcome) -> Verdict:
-    """Judges a run in which one fault was to strike."""
-    ends = ends_of(fault_id, outcome)
-    allowed = set(CATALOGUE[fault_id].ends)
+def verdict_of(outcome: Outcome, *ids: str) -> Verdict:
+    """Judges a run in which these faults were to strike."""
+    ends = ends_of(outcome, *ids)
+    allowed = {end for fault_id in ids for end in CATALOGUE[fault_id].ends} | (
+        {End.ON} if len(ids) > 1 else set()
+    )
     return Verdict(
         ended=not outcome.left and ends <= allowed,
         broken=tuple(broken_in(outcome)),
@@ -47,11 +48,11 @@ def verdict_of(fault_id: str, outcome: Outcome) -> Verdict:
     )
 
 
-def ends_of(fault_id: str, outcome: Outcome) -> frozenset[End]:
+def ends_of(outcome: Outcome, *ids: str) -> frozenset[End]:
     """Everything that the cell did about it; that it went on where it did nothing else."""
     found = set()
     for asked in outcome.questions:
-        stopped = asked.question.about == ARM and fault_id == "M7"
+        stopped = asked.question.about == ARM and "M7" in ids
         found.add(End.ABORTED if stopped else End.HELD)
     if any(departure.fate is Fate.SET_ASIDE for departure in outcome.departures):
         found.add(End.ASIDE)
@@ -60,6 +61,16 @@ def ends_of(fault_id: str, outcome: Outcome) -> frozenset[End]:
 
 def broken_in(outcome: Outcome) -> Iterator[str]:
     """The invariants that a run has broken, in words; none where all held."""
+    if outcome.broken:
+        yield outcome.broken  # the run was broken off there: nothing else is known
+        return
+    yield from outcome.ends_amiss
+    yield from _accounts(outcome)
+    yield from _motions(outcome)
+
+
+def _accounts(outcome: Outcome) -> Iterator[str]:
+    """I1 to I5, at the end."""
     accounted = outcome.stored + outcome.lost + len(outcome.exceptions)
     if accounted != outcome.boxes:
         yield f"I1: {accounted} of {outcome.boxes} boxes are accounted for"
@@ -70,11 +81,15 @@ def broken_in(outcome: Outcome) -> Iterator[str]:
     names = [departure.box for departure in outcome.departures]
     for name in sorted({name for name in names if names.count(name) > 1}):
         yield f"I3: box {name} has ended {names.count(name)} times"
-    for hit in outcome.referee.collisions:
+    for hit in undue(outcome.referee.collisions, outcome.fell):
         yield f"I5: {hit.at:.1f} s: {hit.who} against {hit.against}"
+
+
+def _motions(outcome: Outcome) -> Iterator[str]:
+    """I5 and I7: motions that began before a question was answered that forbids them."""
     for asked in outcome.questions:
         question, answered = asked.question, asked.answered
-        if question.about != ARM and not question.id.startswith(DECISION):
+        if question.about not in {ARM, RECORDS} and not question.id.startswith(DECISION):
             continue
         for began in outcome.motions:
             if answered is not None and asked.asked + SPARE < began < answered - SPARE:

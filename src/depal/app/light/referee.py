@@ -2,7 +2,7 @@
 
 import itertools
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from depal.cell.departures import Departure, Fate
@@ -266,7 +266,7 @@ def _last_place(box: LightBox) -> str:
     return str(box.placed[-1]) if box.where == REMOVED and box.placed else box.where
 
 
-def _names(indices: Sequence[int] | dict[int, object]) -> str:
+def _names(indices: Iterable[int]) -> str:
     return " and ".join(name_of(index) for index in indices)
 
 

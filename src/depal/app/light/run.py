@@ -25,8 +25,8 @@ from depal.logistics.store import assign_places, by_storage
 from depal.simulation.light import (
     NO_FAULTS,
     EndedError,
-    LightCell,
     Life,
+    LightCell,
     Rates,
     build_light,
     light_delivery,
@@ -173,9 +173,7 @@ class _Run:
             self._writes = writes.count
         return done
 
-    async def _work(
-        self, cell: LightCell, referee: Referee, life: Life, writes: Writes
-    ) -> None:
+    async def _work(self, cell: LightCell, referee: Referee, life: Life, writes: Writes) -> None:
         again = self._disk.journal.last > 0 or self._disk.page is not None
         wired = self._wired(cell, life, writes, again=again)
         referee.watch(wired.work)
@@ -191,6 +189,7 @@ class _Run:
         devices = cell.devices(life)
         ports = Ports(
             arm=devices.arm,
+            override=devices.arm,
             gripper=devices.gripper,
             reader=devices.reader,
             bays=devices.bays,

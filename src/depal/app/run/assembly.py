@@ -4,6 +4,7 @@ import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
+from depal.cell.bookkeeping import Bookkeeping, WrittenArm, WrittenGripper
 from depal.cell.controller import Controller
 from depal.cell.feedback import Feedback
 from depal.cell.halting import HaltingArm
@@ -91,16 +92,24 @@ def assemble(wiring: Wiring, ports: Ports, desk_of: DeskOf = motion_desk) -> Ass
     sight = ports.sight
     ports = timed(ports, times)
     halting = HaltingArm(CautiousArm(ports.arm, ports.safety, ports.clock, times))
-    ports = replace(ports, arm=halting, sight=FreshSight(ports.sight, ports.clock))
     questions = Questions(ports.person, ports.clock)
+    books = Bookkeeping(questions)
+    ports = replace(
+        ports,
+        arm=WrittenArm(halting, books),
+        gripper=WrittenGripper(ports.gripper, books),
+        sight=FreshSight(ports.sight, ports.clock),
+    )
     work = Workplace(
         wiring.layout, wiring.told, ports, wiring.settings, questions, wiring.impossible
     )
     desk = desk_of(wiring, work, times)
-    halting.bind(work, desk)
+    halting.bind(work)
     if isinstance(sight, CameraSight):
         sight.bind(work.pile, desk.viewing.covered)
         work.feedback = Feedback(sight.learn, sight.doubt, sight.deny, sight.part)
     notes = Journalist()
-    controller = Controller(work, desk, notes, wiring.tasks, wiring.journal, wiring.engine)
+    controller = Controller(
+        work, desk, notes, wiring.tasks, wiring.journal, wiring.engine, books, halting
+    )
     return Assembly(work, desk, notes, controller, times)

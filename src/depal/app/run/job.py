@@ -17,13 +17,16 @@ from depal.app.run.case2 import case2_delivery, case2_names, case2_requests
 from depal.app.run.eyes import camera_sight
 from depal.app.run.film import Film
 from depal.app.run.inputs import cell_of, checked_speed, one_of, policy_of, refuse_what_cannot_work
+from depal.app.run.inspecting import Inspector
 from depal.app.run.live import LiveView, watched
 from depal.app.run.record import RESULT, Keeper
+from depal.app.run.recovering import RecoveryTimes, TimedWorld
+from depal.app.run.request_ends import wrong_ends
 from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
-from depal.cell.planning.desk import Desk
+from depal.cell.planning.desk import Desk, MotionDesk
 from depal.cell.sight import CameraSight
 from depal.cell.stock import movements_in
 from depal.cell.tasks import read_shipped_tasks
@@ -167,7 +170,13 @@ async def _run(
 ) -> tuple[Outcome, Film]:
     clock = LoopClock()
     cell = build(
-        job.layout, job.delivery, job.seed, clock=clock, sight=job.sight, severity=job.severity
+        job.layout,
+        job.delivery,
+        job.seed,
+        clock=clock,
+        sight=job.sight,
+        severity=job.severity,
+        kind=TimedWorld,
     )
     places = by_storage(job.layout.places, without=job.layout.aside)
     store.seed_places([job.told], places, seed=job.seed)
@@ -178,13 +187,16 @@ async def _run(
         job.told,
         job.settings,
         tasks,
-        keeper.journal,
+        injection.journal(keeper.journal),
         seed=job.seed,
         impossible=job.impossible,
         cone=job.cone,
     )
     wired = assemble(wiring, _ports(cell, injection, store, sight))
     work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
+    if isinstance(desk, MotionDesk):
+        desk.planner.mover = injection.mover(desk.planner.mover)
+    work.keep = controller.books.keeping(injection.page)
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.told.boxes))
@@ -192,20 +204,34 @@ async def _run(
     keys = store.accept(job.requests, source=f"run of {job.delivery.id}, seed {job.seed}")
     scores = ScoreKeeper(work, lambda: sight.frames if isinstance(sight, CameraSight) else ())
     scores.listen_to(notes)
+    inspector, recoveries = Inspector(work, cell, injection.arm.fell), RecoveryTimes(cell.world)
+    if job.inspected:
+        if isinstance(cell.world, TimedWorld):
+            cell.world.stopwatch = time.perf_counter
+        for looks_on in (inspector, recoveries):
+            looks_on.listen_to(notes)
+            injection.arm.watchers.append(looks_on.moves)
     film = Film(cell, view.caption)
     filming = asyncio.get_running_loop().create_task(film.record())
     with watched(view) if watch else nullcontext():
         async with asyncio.timeout(job.horizon):
-            await controller.empty_pallet(job.requests)
+            working = controller.empty_pallet(job.requests)
+            await (inspector.over(working) if job.inspected else working)
     filming.cancel()
     film.take()
-    _close_books(store, keeper, controller, dict(zip(keys, work.wishes, strict=True)))
+    wishes = dict(zip(keys, work.wishes, strict=True))
+    _close_books(store, keeper, controller, wishes)
     outcome = _outcome(job, work, desk, cell, keeper, wired.times)
     outcome = replace(
         outcome,
         struck=injection.struck,
         motions=tuple(injection.arm.began),
         most_held=injection.arm.most_held,
+        broken=inspector.broken,
+        ends_amiss=tuple(wrong_ends(store.requests(), wishes, outcome.stack, cell.referee)),
+        fell=dict(injection.arm.fell),
+        checks=inspector.checks,
+        recoveries=tuple(recoveries.seconds),
     )
     return replace(outcome, scores=scores.scores), film
 

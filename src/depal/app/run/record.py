@@ -16,7 +16,7 @@ from types import TracebackType
 from typing import Self
 
 from depal.cell.reporting import ChoiceNote, Journalist
-from depal.errors import JournalError
+from depal.errors import JournalError, UnwrittenError
 from depal.executive import events as ev
 from depal.executive.events import encode
 from depal.executive.journal import Journal, MemoryJournal, SqliteJournal
@@ -71,11 +71,19 @@ class Keeper:
         notes.listen(heard=self._heard, chosen=self._chosen)
 
     def write_choices(self) -> None:
-        """Writes the choices beside the journal."""
+        """Writes the choices beside the journal.
+
+        Raises:
+            UnwrittenError: the disk does not take them.
+        """
         if self.folder is None:
             return
         lines = [json.dumps(asdict(n), separators=(",", ":"), default=said) for n in self.choices]
-        (self.folder / CHOICES).write_text("".join(f"{line}\n" for line in lines), "utf-8")
+        path = self.folder / CHOICES
+        try:
+            path.write_text("".join(f"{line}\n" for line in lines), "utf-8")
+        except OSError as error:
+            raise UnwrittenError(f"{path}: the choices were not written: {error}") from error
 
     def _heard(self, _: int, events: Sequence[ev.Event]) -> None:
         for event in events:

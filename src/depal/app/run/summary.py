@@ -1,7 +1,7 @@
 """What came of a run: the cell's books, the referee's word on them, and the report."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from rich.console import RenderableType
 from rich.text import Text
@@ -58,6 +58,11 @@ class Outcome:
         struck: the faults that have struck.
         motions: when each motion of the arm began [s].
         most_held: how many boxes hung on the arm together.
+        broken: the invariant that was broken while it ran, in words; empty where none was.
+        ends_amiss: what is wrong with how the requests have ended, in words.
+        fell: when each box was pulled out of the hand by a fault [s].
+        checks: how often the invariants were checked.
+        recoveries: real time from the notice of each fault to the next motion [s].
     """
 
     delivery: str
@@ -84,6 +89,11 @@ class Outcome:
     struck: tuple[Struck, ...] = ()
     motions: tuple[float, ...] = ()
     most_held: int = 0
+    broken: str = ""
+    ends_amiss: tuple[str, ...] = ()
+    fell: Mapping[int, float] = field(default_factory=dict)
+    checks: int = 0
+    recoveries: tuple[float, ...] = ()
 
     @property
     def stored(self) -> int:

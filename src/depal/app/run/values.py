@@ -71,6 +71,8 @@ class Job:
         impossible: products that the arm cannot handle, and why; their cases go to a person.
         note: what the cell is told instead of the delivery's own note.
         faults: what is to strike.
+        inspected: whether the referee checks the invariants as it goes, and ends it where one is
+            broken.
         horizon: a run that has not ended by then is broken off [s]; None for never.
     """
 
@@ -87,6 +89,7 @@ class Job:
     named: tuple[tuple[BoxId, Vector3], ...] = ()
     note: Delivery | None = None
     faults: FaultPlan = field(default_factory=FaultPlan)
+    inspected: bool = False
     horizon: float | None = None
 
     @property

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from depal.app.serve.session import Session, Stage
+from depal.cell.halting import ABORTED, STOPPED
 from depal.server.cellstate import Alarm, Mode
 
 EXCHANGE = "/exchange/"
@@ -16,6 +17,7 @@ STANDING = {
     Stage.DONE: (Mode.COMPLETE, "The pallet is empty."),
     Stage.STOPPED: (Mode.STOPPED, "Stopped after a box. Press Start to go on."),
     Stage.HELD: (Mode.HELD, "Held by a person. Press Resume to go on."),
+    Stage.UNWRITTEN: (Mode.HELD, "Nothing can be written. Make room, then press Start."),
     Stage.RECOVERED: (Mode.HELD, "The controller was started anew. Press Start to go on."),
 }
 
@@ -25,7 +27,8 @@ def mode_of(session: Session | None, alarms: Sequence[Alarm]) -> tuple[Mode, str
     if session is None:
         trouble = next((alarm.text for alarm in alarms if alarm.urgent), "")
         return (Mode.STOPPED, trouble) if trouble else (Mode.IDLE, "No delivery is started.")
-    if session.wired.work.ports.safety.state().stopped:
+    safety = session.wired.work.ports.safety.state()
+    if safety.stopped or safety.gate_open:
         return Mode.ABORTED, "A safety stop is active."
     if session.stage is Stage.WORKING:
         return _working(session)
@@ -35,6 +38,13 @@ def mode_of(session: Session | None, alarms: Sequence[Alarm]) -> tuple[Mode, str
 
 def _working(session: Session) -> tuple[Mode, str]:
     """Working, unless everything waits for an answer."""
+    facts = session.wired.controller.runtime.engine.state.facts
+    if facts.get(STOPPED):
+        mode = Mode.ABORTED if facts.get(ABORTED) else Mode.HELD
+        return mode, f"The arm has stopped: {facts[STOPPED]}"
+    unwritten = session.wired.controller.books.error
+    if unwritten is not None:
+        return Mode.HELD, f"Nothing moves, for what is done cannot be written: {unwritten}"
     waited_for = [question for question in session.person.open if question.blocks]
     if not waited_for or _moves(session):
         return Mode.EXECUTE, "Boxes are being moved."

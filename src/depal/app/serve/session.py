@@ -3,6 +3,7 @@
 import asyncio
 import json
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from enum import Enum
 from pathlib import Path
@@ -21,7 +22,7 @@ from depal.cell.reporting import ChoiceNote
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.workplace import Policy, Ports, Settings
 from depal.domain import BoxId, CellLayout, Gtin, Request
-from depal.errors import DepalError
+from depal.errors import DepalError, DeviceError, JournalError
 from depal.executive import events as ev
 from depal.executive.clock import Clock
 from depal.executive.journal import SqliteJournal
@@ -43,6 +44,7 @@ class Stage(Enum):
     WORKING = "working"
     HELD = "held"
     STOPPED = "stopped"
+    UNWRITTEN = "unwritten"
     DONE = "done"
 
 
@@ -97,7 +99,7 @@ class Session:
         self.stage = Stage.WORKING
         self.began = around.clock.now()
         self.person = ScreenPerson(
-            order.run, around.clock, around.world.deeds, self._asked, around.records.answered
+            order.run, around.clock, around.world.deeds, self._asked, self._answered
         )
         findings = refuse_what_cannot_work(around.layout, order.delivery)
         impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
@@ -121,6 +123,8 @@ class Session:
         self._asides: set[asyncio.Task[None]] = set()
         self._told: set[BoxId] = set()
         self._settled: set[str] = set()
+        self._unwritten: list[str] = []
+        self._reason = ""
         self._bind()
         if old:
             self._take_up()
@@ -145,8 +149,8 @@ class Session:
 
     def _bind(self) -> None:
         work, desk = self.wired.work, self.wired.desk
-        work.keep = lambda: self._ledger.write(
-            page_of(work, desk.promises, self._around.seen.named())
+        work.keep = self.wired.controller.books.keeping(
+            lambda: self._ledger.write(page_of(work, desk.promises, self._around.seen.named()))
         )
         self.wired.notes.listen(heard=self._heard, chosen=self._chosen)
 
@@ -184,11 +188,23 @@ class Session:
         if self.stage is Stage.WORKING:
             self.wired.controller.begin()
         await self.wired.controller.finish()
+        await self._noted(lambda: self._settle_requests(over=True))
+        result = result_of(self.wired, self.began)
+        records, at = self._around.records, self._around.clock.now()
+        await self._noted(lambda: records.run_ended(self.order.run, "done", at, result))
         self.stage = Stage.DONE
-        self._settle_requests(over=True)
-        self._around.records.run_ended(
-            self.order.run, "done", self._around.clock.now(), result_of(self.wired, self.began)
-        )
+
+    async def _noted(self, note: Callable[[], None]) -> None:
+        """What must be known after the run is written, however often it takes."""
+        books = self.wired.controller.books
+        while True:
+            try:
+                note()
+            except DeviceError as error:
+                books.fails(JournalError(str(error)))
+                await books.written()
+            else:
+                return
 
     async def resume(self, source: str) -> None:
         """A person lets it go on."""
@@ -226,10 +242,16 @@ class Session:
             self.wired.controller.runtime.hold("stopped after a box")
             self.stage = Stage.STOPPED
 
+    async def lay_aside(self, reason: str) -> None:
+        """Nothing can be written: it is closed as it stands, to be taken up again."""
+        self._reason, self.stage = reason, Stage.UNWRITTEN
+        await self.close()
+
     async def close(self) -> None:
         """Breaks off, as the end of the controller does; the record can be taken up again."""
         for task in self._asides:
             task.cancel()
+        self.wired.controller.books.close()
         await self.wired.controller.runtime.close()
         self.journal.close()
         self._ledger.close()
@@ -265,14 +287,21 @@ class Session:
     # What happens
 
     def _asked(self, question: QuestionState) -> None:
-        self._around.records.asked(self.order.run, question)
+        with suppress(DeviceError):  # what cannot be written down is asked all the same
+            self._around.records.asked(self.order.run, question)
         self._changed()
+
+    def _answered(self, question: str, choice: str, by: str, at: float) -> None:
+        with suppress(DeviceError):
+            self._around.records.answered(question, choice, by, at)
 
     def _chosen(self, note: ChoiceNote) -> None:
         self.note = note
         line = json.dumps(asdict(note), separators=(",", ":"), default=said)
-        with (self.folder / CHOICES).open("a", encoding="utf-8") as file:
-            file.write(f"{line}\n")
+        self._unwritten.append(f"{line}\n")
+        with suppress(OSError), (self.folder / CHOICES).open("a", encoding="utf-8") as file:
+            file.write("".join(self._unwritten))
+            self._unwritten.clear()
         self._changed()
 
     def _heard(self, _: int, events: Sequence[ev.Event]) -> None:
@@ -282,7 +311,8 @@ class Session:
                 if key.endswith(TAKEN_FACT) and value:
                     box = BoxId(key.removesuffix(TAKEN_FACT))
                     self._around.world.witness_lifted(box)
-        self._settle_requests()
+        with suppress(DeviceError):  # the next step tries again
+            self._settle_requests()
         self._ask_for_what_is_aside()
         self._stop_if_empty()
         self._changed()
@@ -295,14 +325,14 @@ class Session:
                 continue
             if wish.served is not None and wish.box is not None:
                 if over or work.departures.has_ended(wish.box):
-                    self._settled.add(wish.key)
                     records.request_ended(
                         wish.key, served=True, at=wish.served, reason=f"by {wish.box}"
                     )
+                    self._settled.add(wish.key)
             elif over and wish.request.box is not None:
-                self._settled.add(wish.key)
                 reason = "its pallet is empty, and the box was not on it"
                 records.request_ended(wish.key, served=False, at=work.now, reason=reason)
+                self._settled.add(wish.key)
 
     def _ask_for_what_is_aside(self) -> None:
         """What was set aside moves on when a person has taken it."""
@@ -341,6 +371,9 @@ class Session:
             found.insert(
                 0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
             )
+        if self.stage is Stage.UNWRITTEN:
+            todo = "Make room, then press Start."
+            found = [Alarm("unwritten", self._reason, todo, self._around.clock.now())]
         return tuple(sorted(found, key=lambda alarm: not alarm.urgent))
 
 

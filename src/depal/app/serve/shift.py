@@ -17,12 +17,15 @@ from depal.app.serve.seeing import seen_with
 from depal.app.serve.session import Session, Stage, Surroundings
 from depal.app.serve.statement import Moment, statement
 from depal.domain import Request
-from depal.errors import DepalError
+from depal.errors import DepalError, UnwrittenError
 from depal.executive.clock import Clock
 from depal.executive.record import JOURNAL
 from depal.ports.wire.messages import Built
 from depal.server.cell import Order, Refusal, Settings
 from depal.server.cellstate import Alarm, CellState
+
+OVER = (Stage.DONE, Stage.UNWRITTEN)
+"""In these stages a run is closed already."""
 
 FRAMES = 0.1
 """While the arm moves, a new state is told so often [s of wall time]."""
@@ -73,7 +76,7 @@ class Shift:
         for task in (self._beginning, self._resuming, self._running):
             if task is not None:
                 task.cancel()
-        if self._session is not None and self._session.stage is not Stage.DONE:
+        if self._session is not None and self._session.stage not in OVER:
             await self._session.close()
 
     async def take_up(self, order: Order) -> None:
@@ -151,6 +154,8 @@ class Shift:
         try:
             await session.run()
             await session.close()
+        except UnwrittenError as error:
+            await session.lay_aside(str(error))
         except Exception as error:  # noqa: BLE001 - whatever it is, nobody waits for ever
             await self._give_up(session, error)
         self.tell()
@@ -192,6 +197,9 @@ class Shift:
         if session.wired.work.ports.safety.state().stopped:
             raise Refusal("a safety stop is active; it is released at the cell, not from here")
         self._trouble = None
+        if session.stage is Stage.UNWRITTEN:
+            await self._open_session(session.order)  # from what was written, as after a restart
+            session = self._current()
         # A person need not wait until the arm has drawn clear: the state tells how it goes on.
         self._resuming = asyncio.create_task(self._go_on(session, source))
         await asyncio.sleep(0)

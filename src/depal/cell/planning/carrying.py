@@ -13,6 +13,7 @@ from depal.cell.planning.plans import CarryPlan, Load
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.surroundings import target_of
 from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.planning.trolleys import Trolleys
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId, StorageKind
 from depal.logistics.placing import MARGINS, Spot, find_spots
@@ -45,9 +46,11 @@ class Carrying:
         self._promises = promises
         self._picking = picking
         self._lists: dict[BoxId, tuple[PlaceId, ...]] = {}
+        self._trolleys = Trolleys(work.ports.bays, work.layout.storages)
 
     async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:
         """The first place in a list into which a box can be put, with the motion there."""
+        self._look_at_bays()
         load = self._load_of(box)
         if load is None:
             return f"box {box} is neither held nor about to be"
@@ -61,6 +64,11 @@ class Carrying:
                 self._promise(plan)
             await self._planner.charge(self._planner.planned - before)
         return plan
+
+    def _look_at_bays(self) -> None:
+        """The books follow what stands there, whoever has brought it."""
+        for bay in self._trolleys.exchanged():
+            self._promises.replaced(bay)
 
     def _load_of(self, box: BoxId) -> Load | None:
         load = load_of(box, self._work, self._promises.pick_of(box))
@@ -156,6 +164,7 @@ class Carrying:
 
     async def carry(self, box: BoxId, place: PlaceId) -> CarryPlan | str:
         """The motion of the held box into a place, from where it is."""
+        self._look_at_bays()
         promises = self._promises
         kept, here = promises.carry_of(box), self._planner.here
         there = self._open((place,)) if place != ASIDE else [place]

@@ -102,8 +102,8 @@ class Promises:
         """The place is promised: nobody else gets it."""
         box = plan.load.box
         self.release(box)
-        self._carries[box] = plan
         self.books = self.books.put(plan.place, plan.spot.standing(box, plan.load.mass))
+        self._carries[box] = plan
         self._around.put(box, plan.place, OrientedBox(plan.target, plan.load.size))
 
     def release(self, box: BoxId) -> None:
@@ -140,6 +140,13 @@ class Promises:
         if self.books.where(box) is not None:
             self.books = self.books.take(box)
             self._around.take(box)
+
+    def replaced(self, trolley: str) -> None:
+        """Another trolley stands in the bay, and nobody was asked for it: the spots are gone."""
+        for box, plan in list(self._carries.items()):
+            if plan.place.startswith(f"{trolley}/"):
+                self.release(box)
+        self.exchanged(trolley)
 
     def exchanged(self, trolley: str) -> None:
         """An empty trolley stands in the bay."""

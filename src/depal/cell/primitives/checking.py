@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 
+from depal.cell.choosing import GAVE_UP
 from depal.cell.guards import Guards
 from depal.cell.hand import Phase
 from depal.cell.identity import told_size, why_not
@@ -36,6 +37,7 @@ class Checking:
         self._desk = desk
         self._guards = guards
         self._shown: ShowPlan | None = None
+        self._searched: set[BoxId] = set()
         self._refused: dict[BoxId, str] = {}
 
     async def show(self, context: Context) -> Report:
@@ -43,6 +45,9 @@ class Checking:
         box = BoxId(context.args["Box"])
         plan = await self._desk.presenting.show(box)
         if isinstance(plan, str):
+            if GAVE_UP in plan and box not in self._searched:
+                self._searched.add(box)  # another search may find what this one has not
+                return Report(outcome=Outcome.FAILED, reason=plan)
             return await self._ask(box, plan)
         await context.checkpoint()
         follow = self._work.ports.arm.follow
@@ -104,7 +109,8 @@ class Checking:
         mass = work.ports.arm.load()
         work.held = held = replace(held, mass=mass)
         # One edge may have been seen wrongly: a code and a weight that agree outweigh it.
-        reasons = why_not(product, held.size, mass, unsized=True)
+        unsized = work.pile.remembered or box in work.pile.unsized
+        reasons = why_not(product, held.size, mass, unsized=unsized)
         if reasons:
             return self._refuse(box, "; ".join(reasons))
         work.pile.identify(box, gtin)

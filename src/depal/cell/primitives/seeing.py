@@ -1,19 +1,25 @@
 """The primitives of `depalletize`: look, select, wait until the box has left."""
 
+import asyncio
+from collections.abc import Sequence
+
 from depal.cell.choosing import Choice, choose, may_pass, priority_of
 from depal.cell.departures import Fate
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Gtin, Recognition
+from depal.domain import BoxId, Gtin, Perceived, Recognition
 from depal.executive.engine import Call, Report
 from depal.executive.events import Change, Outcome
 from depal.executive.runtime import Context
-from depal.ports import TAKEN, Question
+from depal.ports import TAKEN, Question, View
 from depal.selection import Outcome as Selected
 
 AGAIN = 5
 """Before a person is asked for a box that looks differ about, the cell looks so often again."""
+
+LATER = 1.0
+"""Where a box has vanished another look comes so much later [s]."""
 
 BLANK = 2
 """Before a pallet that should hold boxes counts as empty, the cell looks so often again."""
@@ -42,8 +48,15 @@ class Seeing:
     async def look(self, context: Context) -> Report:
         """Takes a picture and finds the boxes; what it learns of each is a fact of its own."""
         work = self._work
+        before = work.pile.boxes
         view = await work.ports.sight.look()
+        if self._vanished(before, view):
+            await asyncio.sleep(LATER)
+            view = await work.ports.sight.look()
+        fallen = self._vanished(before, view)
         work.pile.see(view)
+        for lost in fallen:
+            work.fallen(lost.id)
         work.keep()
         for box in view.moved:
             work.left_behind.pop(box, None)  # what was not possible there may be here
@@ -55,6 +68,17 @@ class Seeing:
         pallet = context.args["Pallet"]
         empty = not len(work.pile) and (work.seen_to or not self._expected())
         return Report(((f"{pallet}.seen", True), (f"{pallet}.empty", empty)))
+
+    def _vanished(self, before: Sequence[Perceived], view: View) -> tuple[Perceived, ...]:
+        """What nothing stood before, nobody has taken, and this look shows no more.
+
+        A sight that remembers tells for itself what is hidden.
+        """
+        if view.remembered:
+            return ()
+        seen = {box.id for box in view.boxes}
+        left = self._work.departures.has_left
+        return tuple(box for box in before if box.id not in seen and not left(box.id))
 
     def _learned(self, context: Context) -> list[Change]:
         """What the picture tells of products; it may also take back what it told before."""

@@ -26,6 +26,8 @@ class FaultyArm:
     Attributes:
         began: when each motion began [s], for the referee.
         most_held: so many boxes hung on it together when a motion after the lift began.
+        fell: when each box was pulled off the cups [s].
+        watchers: told of each motion before it begins.
     """
 
     def __init__(
@@ -44,6 +46,8 @@ class FaultyArm:
         self._torque = False
         self.began: list[float] = []
         self.most_held = 0
+        self.fell: dict[int, float] = {}
+        self.watchers: list[Callable[[Trajectory], None]] = []
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""
@@ -65,8 +69,7 @@ class FaultyArm:
         """
         if self._torque:
             raise DeviceError(TORQUE)
-        if not self._safety.state().stopped:
-            self.began.append(self._clock.now())
+        self._begins(trajectory)
         phase, box = self._phase(guard)
         if phase is Phase.REACH:
             self._pile.reached_for(trajectory.end)
@@ -94,6 +97,13 @@ class FaultyArm:
         if reason in {PATH, TORQUE}:
             raise DeviceError(reason)
         return reason
+
+    def _begins(self, trajectory: Trajectory) -> None:
+        if self._safety.state().stopped:
+            return
+        self.began.append(self._clock.now())
+        for watcher in self.watchers:
+            watcher(trajectory)
 
     def _phase(self, guard: Guard | None) -> tuple[Phase | None, int | None]:
         """What this motion is; the lift belongs to the grasp, in which nothing strikes the arm."""
@@ -132,6 +142,7 @@ class FaultyArm:
     def _drop(self) -> str | None:
         for box in self._world.suction.held_boxes:
             self._world.suction.detach(box, self._world.now)
+            self.fell[box] = self._world.now
         self._world.wake()
         return None
 

@@ -8,12 +8,14 @@ from enum import Enum
 class Phase(Enum):
     """What the cell is doing, as its devices see it.
 
-    Look: a picture is taken. Reach: the arm moves with an empty hand. Grasp: suction comes. Carry:
-    the arm moves with a box. Place: it sets one down. Read: the barcode reader looks. Query: the
-    store's system is asked. Tell: it is told.
+    Look: a picture is taken. Plan: a motion is planned. Reach: the arm moves with an empty hand.
+    Grasp: suction comes. Carry: the arm moves with a box. Place: it sets one down. Read: the
+    barcode reader looks. Query: the store's system is asked. Tell: it is told. Write: something is
+    written before it is done.
     """
 
     LOOK = "look"
+    PLAN = "plan"
     REACH = "reach"
     GRASP = "grasp"
     CARRY = "carry"
@@ -21,12 +23,17 @@ class Phase(Enum):
     READ = "read"
     QUERY = "query"
     TELL = "tell"
+    WRITE = "write"
 
 
 MOVING = (Phase.REACH, Phase.CARRY, Phase.PLACE)
 
 HELD = frozenset({Phase.GRASP, Phase.CARRY, Phase.PLACE, Phase.READ})
 """Phases in which it is known which box the cell works on."""
+
+
+LIKE = (Phase.GRASP, Phase.LOOK)
+"""What a box weighs is found out in the hand, its size by the look."""
 
 
 class End(Enum):
@@ -71,15 +78,18 @@ _ON, _ASIDE, _HELD, _ABORTED = End.ON, End.ASIDE, End.HELD, End.ABORTED
 
 ENTRIES = (
     Entry("P1", "the camera is dead or frozen", (Phase.LOOK,), 4.0, (_ON, _HELD)),
+    Entry("P6", "the camera is bumped", (Phase.LOOK,), math.inf, (_HELD, _ON)),
     Entry("P7", "a box is moved after the look", (Phase.REACH,), 0.0, (_ON,)),
     Entry("N1", "the label is unreadable", (Phase.READ,), math.inf, (_ON, _ASIDE)),
     Entry("N3", "a product that is not on the note", (Phase.LOOK,), math.inf, (_ASIDE,)),
-    Entry("N4", "a box weighs what its product does not", (Phase.GRASP,), math.inf, (_ASIDE,)),
+    Entry("N4", "a box's mass or size is not its product's", LIKE, math.inf, (_ASIDE,)),
     Entry("G1", "the vacuum is not reached", (Phase.GRASP,), 0.0, (_ON,)),
     Entry("G3", "the box is dropped in transit", (Phase.CARRY,), 0.0, (_HELD,)),
     Entry("G4", "a neighbour sticks to the box", (Phase.GRASP,), 0.0, (_ON, _HELD)),
     Entry("G7", "one of two suction modules is dead", (Phase.GRASP,), math.inf, (_ON,)),
     Entry("M2", "a box falls off the pile", (Phase.REACH,), 0.0, (_HELD,)),
+    Entry("M3", "nothing reaches a box", (Phase.PLAN,), 60.0, (_ON, _HELD)),
+    Entry("M4", "the planner gives up", (Phase.PLAN,), 0.0, (_ON,)),
     Entry("M5", "the arm leaves its path and stops", MOVING, 0.0, (_HELD, _ON)),
     Entry("M6", "the arm meets a torque that it does not expect", MOVING, math.inf, (_HELD,)),
     Entry("M7", "an emergency stop, or the gate is opened", MOVING, math.inf, (_ABORTED,)),
@@ -89,6 +99,7 @@ ENTRIES = (
     Entry("W1", "the store's system is silent", (Phase.QUERY, Phase.TELL), 5.0, (_ON, _ASIDE)),
     Entry("W2", "the store's system is slow", (Phase.QUERY, Phase.TELL), 30.0, (_ON, _ASIDE)),
     Entry("W3", "the store's system is told twice", (Phase.TELL, Phase.QUERY), 0.0, (_ON,)),
+    Entry("C3", "the disk is full", (Phase.WRITE,), math.inf, (_HELD,)),
     Entry("W6", "the store knows no place", (Phase.QUERY,), 30.0, (_ON, _ASIDE)),
 )
 

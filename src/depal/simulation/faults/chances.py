@@ -28,8 +28,14 @@ class Chances:
         self._plan, self._seed, self._now = plan, seed, now
         self._dice = [np.random.default_rng([seed, 7, n]) for n in range(len(plan.faults))]
         self._over: set[int] = set()
+        self._met = [0] * len(plan.faults)
         self.struck: list[Struck] = []
         self.step = 0
+
+    @property
+    def planned(self) -> frozenset[str]:
+        """The faults that may strike."""
+        return self._plan.ids
 
     def strikes(self, fault_id: str, phase: Phase, box: int | None = None) -> Struck | None:
         """A chance for a fault to begin: the first of its entries that does.
@@ -47,6 +53,9 @@ class Chances:
                 continue
             if self._now() < when.time:
                 continue
+            self._met[number] += 1
+            if self._met[number] < when.nth:
+                continue
             if when.p is None:
                 self._over.add(number)
             elif self._dice[number].random() >= when.p:
@@ -57,11 +66,15 @@ class Chances:
 
     def lasts(self, fault_id: str, phase: Phase, box: int | None = None) -> Struck | None:
         """The fault of that name that lasts now; a chance for it to begin where none does."""
+        return self.lasting(fault_id) or self.strikes(fault_id, phase, box)
+
+    def lasting(self, fault_id: str) -> Struck | None:
+        """The fault of that name that lasts now, where one does."""
         now = self._now()
         for struck in reversed(self.struck):
             if struck.fault.id == fault_id and now < struck.until:
                 return struck
-        return self.strikes(fault_id, phase, box)
+        return None
 
     def take_back(self, struck: Struck) -> None:
         """It did not happen after all: there will be another chance."""
@@ -75,6 +88,10 @@ class Chances:
             if struck.fault.id in known and struck.until > now:
                 over = replace(struck.fault, duration=max(now - struck.at, 0.0))
                 self.struck[number] = replace(struck, fault=over)
+
+    def fixed_dice(self, *key: int) -> np.random.Generator:
+        """Numbers that stay the same for the whole run."""
+        return np.random.default_rng([self._seed, 10, *key])
 
     def dice(self, *key: int) -> np.random.Generator:
         """Numbers for how a fault strikes, apart from whether it does."""

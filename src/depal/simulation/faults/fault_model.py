@@ -17,8 +17,19 @@ def _whole(value: int) -> int:
     return value
 
 
+def _from_one(value: int) -> int:
+    if value < 1:
+        raise refused(f"{value} is below 1")
+    return value
+
+
 Index = Annotated[int, AfterValidator(_whole), WithJsonSchema({"type": "integer", "minimum": 0})]
 """A number of a box or a step, from 0."""
+
+Ordinal = Annotated[
+    int, AfterValidator(_from_one), WithJsonSchema({"type": "integer", "minimum": 1})
+]
+"""The number of a chance, from 1."""
 
 Name = Annotated[str, WithJsonSchema({"enum": list(CATALOGUE)})]
 PhaseName = Annotated[str, WithJsonSchema({"enum": [phase.value for phase in Phase]})]
@@ -50,6 +61,9 @@ class WhenEntry(BaseModel):
         default_factory=_none, description="the probability at each chance, a number from 0 to 1"
     )
     phase: PhaseName = Field(default_factory=str, description="what the cell is doing, in a word")
+    nth: Ordinal = Field(
+        default=1, description="at the so-manieth chance at which all the rest holds, from 1"
+    )
 
 
 class FaultEntry(BaseModel):
@@ -76,6 +90,7 @@ class FaultEntry(BaseModel):
                 when.time,
                 None if when.p == NONE else when.p,
                 Phase(when.phase) if when.phase else None,
+                when.nth,
             ),
             None if self.duration == NONE else self.duration,
         )

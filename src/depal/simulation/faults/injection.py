@@ -3,15 +3,19 @@
 from dataclasses import dataclass
 
 from depal.executive.clock import Clock
+from depal.executive.journal import Journal
+from depal.motion.moves import Mover
 from depal.ports import Sight, StoreSystem
 from depal.simulation.cell import SimulatedCell
 from depal.simulation.faults.arm import FaultyArm
 from depal.simulation.faults.bays import FaultyBays
 from depal.simulation.faults.chances import Chances
 from depal.simulation.faults.gripper import FaultyGripper
+from depal.simulation.faults.journal import FaultyJournal, refuse
 from depal.simulation.faults.person import MendingPerson
 from depal.simulation.faults.pile import FaultyPile
 from depal.simulation.faults.plan import FaultPlan, Struck
+from depal.simulation.faults.planning import FaultyMover
 from depal.simulation.faults.reader import FaultyReader
 from depal.simulation.faults.sight import FaultyCamera, FaultySight
 from depal.simulation.faults.store import FaultyStore
@@ -73,6 +77,23 @@ class Injection:
     def store(self, store: StoreSystem) -> FaultyStore:
         """The store's system, whose answers may fail."""
         return FaultyStore(store, self.clock, self.chances, self.bays.asked_for)
+
+    def mover(self, mover: Mover) -> Mover:
+        """The mover of the cell, which may find no way."""
+        fails = {"M3", "M4"} & self.chances.planned
+        return FaultyMover(mover.layout, self.chances) if fails else mover
+
+    def journal(self, journal: Journal) -> FaultyJournal:
+        """The executive's journal, on a disk that may be full."""
+        return FaultyJournal(journal, self.chances)
+
+    def page(self) -> None:
+        """A page of the ledger is written, where the disk takes it.
+
+        Raises:
+            JournalError: the disk is full.
+        """
+        refuse(self.chances)
 
     @property
     def struck(self) -> tuple[Struck, ...]:

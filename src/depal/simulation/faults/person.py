@@ -6,7 +6,7 @@ from depal.ports import Person, Question
 from depal.simulation.devices.safety import SimulatedSafety
 from depal.simulation.faults.chances import Chances
 
-ABOUT = {"arm": ("M6", "M7"), "pallet": ("P1",)}
+ABOUT = {"arm": ("M6", "M7"), "pallet": ("P1", "P6"), "records": ("C3",)}
 """What a person mends who is asked about a thing."""
 
 

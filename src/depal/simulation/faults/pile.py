@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from depal.domain import Gtin, Joints
-from depal.geometry import Pose
+from depal.geometry import OrientedBox, Pose
 from depal.motion.kinematics import Kinematics
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
-from depal.simulation.faults.plan import FaultPlan, Struck
+from depal.simulation.faults.plan import Fault, FaultPlan, Struck
 from depal.simulation.referee import PALLET, Referee
 from depal.simulation.world import World
 
@@ -27,6 +27,9 @@ AWAY = (0.03, 0.06)
 
 LIGHT, HEAVY = (0.5, 0.7), (1.22, 1.32)
 """A box that is not filled as it should be weighs so many times what its product does."""
+
+SHORT = (0.70, 0.80)
+"""A box that is not as high as its product has this share of the height."""
 
 PUSH = 1.4
 """With this speed a falling box leaves the pile [m/s]."""
@@ -49,6 +52,8 @@ class FaultyPile:
                 cases[box] = replace(cases[box], gtin=FOREIGN)
                 world.cases = tuple(cases)
                 chances.struck.append(Struck(fault, world.now, Phase.LOOK, box))
+            if fault.id == "N4" and fault.when.phase is Phase.LOOK:
+                self._shorten(fault)
 
     def reached_for(self, end: Joints) -> None:
         """The arm begins to move, with an empty hand, to these joints [rad]."""
@@ -84,6 +89,24 @@ class FaultyPile:
         cases = list(world.cases)
         cases[box] = replace(cases[box], mass=cases[box].mass * share)
         world.cases = tuple(cases)
+
+    def _shorten(self, fault: Fault) -> None:
+        """A box that nothing lies on has been lower from the beginning."""
+        world, random, tops = self._world, self._chances.dice(11), self._tops()
+        if not tops:
+            return
+        box = tops[int(random.integers(len(tops)))]
+        if fault.when.box in tops:
+            box = fault.when.box
+        case, pose = world.cases[box], world.box(box)
+        a, b, c = case.shape.size
+        size = (a, b, c * float(random.uniform(*SHORT)))
+        world.model.mj.geom_size[world.model.box_geoms[box]] = np.array(size) / 2
+        cases = list(world.cases)
+        cases[box] = replace(case, shape=OrientedBox(case.shape.pose, size))
+        world.cases = tuple(cases)
+        world.place_box(box, Pose((0.0, 0.0, (size[2] - c) / 2)) @ pose)
+        self._chances.struck.append(Struck(fault, world.now, Phase.LOOK, box))
 
     def sticks(self, box: int) -> None:
         """The vacuum holds a box: a neighbour that stands close by may come along."""

@@ -1,7 +1,7 @@
 """Which faults are to strike, and when: plain values."""
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +10,9 @@ from depal.simulation.faults.catalogue import CATALOGUE, Phase
 
 LIFTED = frozenset({Phase.CARRY, Phase.PLACE, Phase.READ, Phase.TELL})
 """In these phases a box has been lifted."""
+
+CHANCES = {Phase.WRITE: 20, Phase.PLAN: 3}
+"""So many chances of a phase there are from one lift to the next, where there are several."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -22,6 +25,7 @@ class When:
         time: not before this [s].
         p: the probability at each chance; None for once, at the first chance.
         phase: what the cell is doing; None for any in which the fault can strike.
+        nth: at the so-manieth chance at which all the rest holds, from 1.
     """
 
     box: int | None = None
@@ -29,6 +33,7 @@ class When:
     time: float = 0.0
     p: float | None = None
     phase: Phase | None = None
+    nth: int = 1
 
 
 ALWAYS = When()
@@ -76,18 +81,23 @@ class FaultPlan:
         return cls(tuple(map(Fault, ids)))
 
     @classmethod
-    def at_random(cls, fault_id: str, seed: int, boxes: int) -> "FaultPlan":
-        """One fault, at a step and in a phase of a seed.
+    def at_random(cls, ids: Sequence[str], seed: int, boxes: int) -> "FaultPlan":
+        """Faults, each once, at a step and in a phase of a seed.
 
         Args:
-            fault_id: in the catalogue.
-            seed: of step and phase.
+            ids: in the catalogue.
+            seed: of steps and phases.
             boxes: so many boxes will be lifted, if all goes well.
         """
-        random, phases = np.random.default_rng([seed, 9]), CATALOGUE[fault_id].phases
-        phase = phases[int(random.integers(len(phases)))]
-        step = int(random.integers(boxes)) + (phase in LIFTED)
-        return cls((Fault(fault_id, When(step=step, phase=phase)),))
+        faults = []
+        for number, fault_id in enumerate(ids):
+            random = np.random.default_rng([seed, 9, number])
+            phases = CATALOGUE[fault_id].phases
+            phase = phases[int(random.integers(len(phases)))]
+            step = int(random.integers(boxes)) + (phase in LIFTED)
+            nth = int(random.integers(1, CHANCES.get(phase, 1) + 1))
+            faults.append(Fault(fault_id, When(step=step, phase=phase, nth=nth)))
+        return cls(tuple(faults))
 
     @property
     def ids(self) -> frozenset[str]:

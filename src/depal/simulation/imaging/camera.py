@@ -2,9 +2,11 @@
 
 import asyncio
 import math
+from dataclasses import replace
 
 from depal.domain import CameraMount
 from depal.executive.clock import Clock
+from depal.geometry import Pose
 from depal.geometry.abreast import abreast
 from depal.ports import Frame
 from depal.simulation.imaging.model import CameraModel
@@ -67,6 +69,7 @@ class SimulatedCamera:
         self._severity = severity
         self._model: CameraModel | None = None
         self._taken = 0
+        self._shift: Pose | None = None
         self._shutter = shutter or Shutter(stage)
         self._shutter.join(self)
 
@@ -80,6 +83,15 @@ class SimulatedCamera:
             seed = self._stage.world.seed
             self._model = CameraModel(scene, self._mount, seed, self._severity)
         return self._model
+
+    def bump(self, shift: Pose | None) -> None:
+        """It sees everything shifted by this; by nothing where None, as it was hung."""
+        if shift == self._shift:
+            return
+        self._shift = shift
+        pose = self._mount.cell_from_camera
+        moved = pose if shift is None else shift.inverse @ pose
+        self._model = self.model.at(replace(self._mount, cell_from_camera=moved))
 
     async def take(self) -> Frame:
         """Takes one picture at the end of its exposure."""

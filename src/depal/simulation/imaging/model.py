@@ -99,6 +99,10 @@ class CameraModel:
         self._colour = np.empty((height, width, 3), dtype=np.uint8)
         self._still: tuple[tuple[str, ...], Backdrop] | None = None
 
+    def at(self, mount: CameraMount) -> "CameraModel":
+        """The same camera in another place, before the same scene."""
+        return CameraModel(self._scene, mount, self._seed, self.severity, self._wear)
+
     def frame(self, snapshot: Snapshot, taken: float, number: int) -> Frame:
         """A picture of a moment; the same for the same seed, moment and number.
 

@@ -8,7 +8,7 @@ import numpy as np
 
 from depal.domain import BoxId, CellLayout, Delivery, Gtin, PlaceId
 from depal.executive.clock import Clock
-from depal.ports import Arm, BarcodeReader, Bays, Gripper, Person, Safety, Sight, StoreSystem
+from depal.ports import BarcodeReader, Bays, Gripper, Person, Safety, Sight, StoreSystem
 from depal.simulation.cases import cases_of
 from depal.simulation.devices import SimulatedSafety
 from depal.simulation.light.devices import (
@@ -42,7 +42,7 @@ class Devices:
         sight: behind `Sight`.
     """
 
-    arm: Arm
+    arm: LightArm
     gripper: Gripper
     reader: BarcodeReader
     bays: Bays
@@ -86,7 +86,7 @@ class LightCell:
             LightGripper(seat),
             LightReader(seat),
             LightBays(seat),
-            SimulatedSafety(),
+            SimulatedSafety(self.clock.now),
             LightPerson(seat, self.deeds),
             StoreLine(self.store, life),
             LightSight(seat, self.known()),

@@ -1,6 +1,7 @@
 """The devices of a light world, as one controller has them: with its end they are dead to it."""
 
 import asyncio
+import math
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -74,6 +75,7 @@ class LightArm:
     def __init__(self, seat: Seat) -> None:
         """At rest."""
         self._seat = seat
+        self.limited = math.inf
 
     def joints(self) -> Joints:
         """The axes: x, y, z [m], yaw [rad] of the flange, 0, 0."""
@@ -87,6 +89,11 @@ class LightArm:
         self._seat.life.check()
         return self._seat.world.load(self._seat.now)
 
+    def limit(self, speed: float) -> None:
+        """The override; nobody comes near a light world, whose ways have no speed of the tool."""
+        self._seat.life.check()
+        self.limited = speed
+
     async def follow(self, trajectory: Trajectory, guard: Guard | None = None) -> str | None:
         """Moves; where the controller ends on the way the arm stands still there.
 
@@ -95,9 +102,7 @@ class LightArm:
         """
         seat, world = self._seat, self._seat.world
         seat.life.check()
-        away = max(
-            abs(a - b) for a, b in zip(trajectory.start, world.axes, strict=True)
-        )
+        away = max(abs(a - b) for a, b in zip(trajectory.start, world.axes, strict=True))
         if away > NEAR:
             raise DeviceError(f"the trajectory begins {away:.3f} from where the arm stands")
         began = seat.now
