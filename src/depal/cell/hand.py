@@ -6,6 +6,14 @@ from enum import Enum
 from depal.domain import BoxId, Grasp, PlaceId
 from depal.geometry import Vector3
 
+HEAVY, SPARE = 1.35, 0.5
+"""What hangs on the arm is more than one box beyond this much of what one weighs, and this [kg]."""
+
+
+def most_of(mass: float) -> float:
+    """What a box that is expected to weigh so much may weigh at the most [kg]."""
+    return HEAVY * mass + SPARE
+
 
 class Phase(Enum):
     """How far a box has got between the pallet and its place.

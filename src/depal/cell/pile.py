@@ -256,8 +256,9 @@ def settled(
 def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck, level: float) -> float:
     """The height of what carries a box, where something near does; else of its bottom [m]."""
     bottom = _bottom(box)
-    heights = [deck.height]
-    heights += [_bottom(other) + other.size[2] for other in below if _over(box, other)]
+    tops = [(_bottom(other) + other.size[2], other) for other in below]
+    near = [(top, other) for top, other in tops if abs(top - bottom) < level]
+    heights = [deck.height, *(top for top, other in near if _over(box, other))]
     nearest = min(heights, key=lambda height: abs(height - bottom))
     return nearest if abs(nearest - bottom) < level else bottom
 
@@ -272,8 +273,11 @@ def _over(box: OrientedBox, other: OrientedBox) -> bool:
 
 
 def _reach(box: OrientedBox) -> tuple[float, float]:
-    along = np.abs(np.array(box.pose.rotation)[:2]) @ np.array(box.size)
-    return float(along[0]), float(along[1])
+    along, across = (
+        sum(abs(turn) * edge for turn, edge in zip(row, box.size, strict=True))
+        for row in box.pose.rotation[:2]
+    )
+    return along, across
 
 
 def _bottom(box: OrientedBox) -> float:

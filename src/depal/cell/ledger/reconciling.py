@@ -7,7 +7,7 @@ a person is asked.
 from dataclasses import dataclass
 from enum import Enum
 
-from depal.cell.hand import Hand, Phase
+from depal.cell.hand import Hand, Phase, most_of
 
 CARRIED = 0.6
 """With at least this share of its mass on the arm a box hangs there."""
@@ -54,6 +54,7 @@ class Sensed:
 class Weight(Enum):
     """What hangs on the arm, beside what the box weighs."""
 
+    MORE = "more"
     WHOLE = "whole"
     PART = "part"
     NONE = "none"
@@ -62,6 +63,7 @@ class Weight(Enum):
 SUCKED, VENTED = True, False
 
 TABLE: dict[tuple[Phase, bool, Weight], Found] = {
+    (Phase.GRASPING, SUCKED, Weight.MORE): Found.LET_GO,
     (Phase.GRASPING, SUCKED, Weight.WHOLE): Found.HOLDING,
     (Phase.GRASPING, SUCKED, Weight.NONE): Found.LET_GO,
     (Phase.GRASPING, VENTED, Weight.NONE): Found.NOT_STARTED,
@@ -93,7 +95,9 @@ def reconcile(hand: Hand | None, sensed: Sensed) -> Found:
 
 
 def weight_of(hand: Hand, load: float) -> Weight:
-    """How much of a box hangs on the arm, by the load [kg]."""
+    """How much of a box hangs on the arm, by the load [kg]; more where it is not alone."""
+    if load > most_of(hand.mass):
+        return Weight.MORE
     if load >= CARRIED * hand.mass:
         return Weight.WHOLE
     return Weight.NONE if load < NOTHING * hand.mass else Weight.PART

@@ -6,7 +6,7 @@ from contextlib import suppress
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
-from depal.cell.hand import Hand, Phase
+from depal.cell.hand import Hand, Phase, most_of
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
@@ -27,8 +27,6 @@ LIGHT = 0.25
 NOTHING = 0.15
 """Where nobody knows what to expect, less than this is nothing [kg]."""
 
-HEAVY, SPARE = 1.35, 0.5
-"""What weighs this much more than all that it can be, and so many kg, is more than one box."""
 
 SAME = 1
 """The same side of a box is tried so often again before another one."""
@@ -120,7 +118,7 @@ class Taking:
         least, most = self._desk.picking.masses(plan.box)
         if mass < (NOTHING if least is None else LIGHT * least):
             return f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
-        if most is not None and mass > HEAVY * most + SPARE:
+        if most is not None and mass > most_of(most):
             size = size_by_weight(work.delivery, plan.box.shape.size, mass)
             if isinstance(plan.box, Recognition):
                 pass

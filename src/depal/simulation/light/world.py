@@ -301,7 +301,7 @@ class LightWorld:
     def _support(self, box: LightBox) -> tuple[float, str]:
         """The height of what is under a box [m], and where it would stand; the floor else."""
         x, y, _ = box.shape.pose.translation
-        space = next((s for s in self._places if s.contains(x, y, box.high[2])), None)
+        space = next((s for s in self._places if s.contains(x, y, box.low[2], box.high[2])), None)
         if space is not None and self.bays[space.storage] is not None:
             floor, where = space.floor, str(space.name)
         elif self._over_pallet(x, y):
@@ -347,9 +347,10 @@ class _Space:
     def floor(self) -> float:
         return self.low[2]
 
-    def contains(self, x: float, y: float, top: float) -> bool:
+    def contains(self, x: float, y: float, bottom: float, top: float) -> bool:
+        """Whether a box with its middle there is in it, or just above its opening."""
         (a, b, c), (d, e, f) = self.low, self.high
-        return a < x < d and b < y < e and c < top < f + SHORT
+        return a < x < d and b < y < e and c - GIVE < bottom and top < f + SHORT
 
 
 def _pallet_of(layout: CellLayout) -> tuple[tuple[float, float], tuple[float, float]]:
