@@ -32,7 +32,7 @@ def test_a_fault_ends_as_its_entry_says_and_nothing_is_lost(fault: str, phase: P
     """In every phase in which it can strike; the referee finds every box where the books say."""
     outcome = struck(fault, phase)
     assert list(broken_in(outcome)) == []
-    assert verdict_of(fault, outcome).ended
+    assert verdict_of(outcome, fault).ended
 
 
 @pytest.mark.slow

@@ -193,6 +193,35 @@ def test_after_a_stop_nothing_moves_until_somebody_says_start(
     run_simulated(shift())
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("after", [3.0, 6.0, 7.2, 9.0])
+def test_a_controller_that_ends_while_the_arm_is_stopped_is_taken_up(
+    tmp_path: Path, after: float
+) -> None:
+    """Start does for both: the stop is over as well, and everything is stored once."""
+
+    async def shift() -> None:
+        means, world, notes, clock, store = around(tmp_path)
+        told = list[CellState]()
+        day = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        await day.start(Order(1, DELIVERY))
+        await asyncio.sleep(after)
+        world.safety.stopped = True
+        await asyncio.sleep(20.0)
+        assert told[-1].questions
+        await day.end()
+        world.safety.stopped = False
+        later = Shift(means, world, notes, clock, Settings(), Picture(), told.append)
+        await later.take_up(Order(1, DELIVERY))
+        await later.start(None)
+        await asyncio.sleep(200.0)
+        assert (told[-1].mode, told[-1].stored, told[-1].lost) == (Mode.COMPLETE, 3, 0)
+        assert sorted(each.box for each in store.movements()) == ["b1", "b2", "b3"]
+        await later.end()
+
+    run_simulated(shift())
+
+
 def session_over(folder: Path) -> tuple[Session, WorldHere]:
     """A run that is taken up where there is a record, else a new one."""
     means, world, notes, clock, store = around(folder)

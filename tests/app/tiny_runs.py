@@ -66,5 +66,5 @@ def run(  # noqa: PLR0913 - a run has many sides
     layout = shipped_cell("default")
     settings = Settings(w=w, policy=policy, guard=guard)
     job = Job(layout, tiny(*cases), requests, settings, seed, sight, cone)
-    job = replace(job, faults=faults or FaultPlan())
+    job = replace(job, faults=faults or FaultPlan(), inspected=faults is not None)
     return run_job(job, record=record)

@@ -58,6 +58,46 @@ def test_the_schema_of_faults_names_them_all(depal: Run) -> None:
 
 
 @pytest.mark.slow
+def test_pairs_are_counted_and_one_of_them_runs_again_to_the_byte(
+    depal: Run, tmp_path: Path
+) -> None:
+    """With its record; three times the same events."""
+    file, record = tmp_path / "faults.json", tmp_path / "record"
+    words = ("study", "faults", "--faults", "G1,W3", "--seeds", 1, "--pairs", 2)
+    status, printed, _ = depal(*words, "--json", file)
+    assert status == 0
+    found = json.loads(file.read_text("utf-8"))
+    assert found["pairs"] == {"n": 2, "broken": []}
+    assert found["runs"] == 4
+    assert found["checks"] > 0
+    assert found["recovery"]["n"] > 0
+    assert found["recovery"]["p95"] <= 5.0
+    assert "pairs: 2" in printed
+    hashes = set()
+    for option in ((), (), ("--record", record)):
+        depal("study", "faults", "--replay", "G1+W3:4", *option, "--json", file)
+        hashes.add(json.loads(file.read_text("utf-8"))["events_sha256"])
+    assert len(hashes) == 1
+    assert depal("replay", record)[0] == 0
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--replay", "G1"), "'G1' names no run; expected FAULT:SEED"),
+        (("--replay", "G1+Q7:3"), "unknown fault 'Q7'"),
+        (("--record", "here"), "a study keeps no records; expected --replay RUN"),
+        (("--faults", "G1", "--pairs", "3"), "one fault makes no pair"),
+    ],
+)
+def test_what_cannot_be_run_is_one_error(depal: Run, words: tuple[str, ...], message: str) -> None:
+    """Before anything runs."""
+    status, _, errors = depal("study", "faults", *words)
+    assert status == 2
+    assert message in errors
+
+
+@pytest.mark.slow
 def test_a_record_that_the_disk_does_not_take_is_one_error_and_what_is_written_is_whole(
     tmp_path: Path,
 ) -> None:

@@ -19,17 +19,19 @@ def written(folder: Path, text: str) -> Path:
 
 
 def test_the_examples_of_the_design_are_read(tmp_path: Path) -> None:
-    """Both lines of DESIGN's format."""
+    """Both lines of DESIGN's format, and what was added."""
     text = """
 - {fault: G3, when: {box: 4, phase: carry}}
 - {fault: P1, when: {p: 0.02}, duration: 3 s}
 - fault: M7
+- {fault: C3, when: {nth: 4}}
 """
     assert read_faults(written(tmp_path, text)) == FaultPlan(
         (
             Fault("G3", When(box=4, phase=Phase.CARRY)),
             Fault("P1", When(p=0.02), duration=3.0),
             Fault("M7"),
+            Fault("C3", When(nth=4)),
         )
     )
 
@@ -41,7 +43,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path: Path) -> None:
 - {fault: G3, when: {phase: cary, p: 2}}
 - {fault: P1, when: {box: 1}, duration: soon}
 - {fault: G3, when: {phase: look}, tune: 3}
-- {when: {step: -1}}
+- {when: {step: -1, nth: 0}}
 """
     with pytest.raises(FaultError) as caught:
         read_faults(written(tmp_path, text))
@@ -56,6 +58,7 @@ def test_all_that_is_wrong_is_said_at_once(tmp_path: Path) -> None:
         "line 5, [3].tune",
         "line 6, [4].fault",
         "line 6, [4].when.step",
+        "line 6, [4].when.nth",
     ]
     assert "did you mean 'G3'" in said[0]
     assert "did you mean 'carry'" in said[2]
@@ -96,6 +99,18 @@ def test_a_fault_without_p_strikes_once_at_its_first_chance() -> None:
     assert chances.strikes("M5", Phase.CARRY, 2) is None
     assert chances.strikes("G3", Phase.CARRY, 2) is not None
     assert chances.strikes("G3", Phase.CARRY, 2) is None
+
+
+@given(nth=st.integers(1, 20), other=st.integers(0, 5))
+def test_a_fault_may_wait_for_a_later_chance(nth: int, other: int) -> None:
+    """Chances at which not all else holds do not count."""
+    chances = Chances(FaultPlan((Fault("C3", When(step=1, nth=nth)),)), 0, lambda: 0.0)
+    for _ in range(other):
+        assert chances.strikes("C3", Phase.WRITE) is None
+    chances.step = 1
+    struck = [chances.strikes("C3", Phase.WRITE) is not None for _ in range(nth + 3)]
+    assert struck.index(True) == nth - 1
+    assert sum(struck) == 1
 
 
 def test_what_lasts_is_over_in_time_or_when_a_person_has_mended_it() -> None:
