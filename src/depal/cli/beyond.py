@@ -12,6 +12,11 @@ from depal.errors import SettingError
 
 beyond = typer.Typer()
 
+LIGHT = "light"
+
+WORLDS = (LIGHT, "physics")
+"""Of a long shift."""
+
 
 @beyond.command()
 def retrieval(  # noqa: PLR0913, PLR0917 - a command's options
@@ -236,10 +241,27 @@ def faults(  # noqa: PLR0913, PLR0917 - a command's options
     faults: Annotated[
         str, typer.Option(help="Ids of faults, with commas; all where none is named.")
     ] = "",
-    seeds: Annotated[int, typer.Option(help="So many runs of each fault.", min=1)] = 3,
+    seeds: Annotated[
+        int, typer.Option(help="So many runs of each fault; 0: only what follows.", min=0)
+    ] = 3,
     pairs: Annotated[
         int, typer.Option(help="So many runs with two random faults of these.", min=0)
     ] = 0,
+    cuts: Annotated[
+        int,
+        typer.Option(
+            help="In a light world: end the controller at every write of a run, and at so many "
+            "random moments.",
+            min=0,
+        ),
+    ] = 0,
+    shift: Annotated[
+        int,
+        typer.Option(help="So many boxes of a long shift, with faults at published rates.", min=0),
+    ] = 0,
+    world: Annotated[
+        str, typer.Option(help="Of the shift: light, or physics on real deliveries.")
+    ] = LIGHT,
     seed: Seed = 0,
     workers: Workers = 1,
     dask: Dask = None,
@@ -252,16 +274,18 @@ def faults(  # noqa: PLR0913, PLR0917 - a command's options
     json_file: JsonFile = None,
     plot: PlotFile = None,
 ) -> None:
-    """Every fault alone, and pairs: how the cell ends them, and whether anything is lost."""
+    """Every fault alone, pairs, crash cuts and a long shift: what ends how, and what is lost."""
     from depal.app.faults import (  # noqa: PLC0415 - fast help
         FaultsAsked,
         Piece,
-        faults_report,
-        faults_rows,
+        Whole,
         replay_report,
         run_one,
+        whole_report,
     )
+    from depal.app.light import Storm  # noqa: PLC0415
     from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.app.run.inputs import one_of  # noqa: PLC0415
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     check_targets(json_file, plot)
@@ -270,8 +294,11 @@ def faults(  # noqa: PLR0913, PLR0917 - a command's options
     if replay:
         finish(replay_report(run_one(Piece.of(replay), record)), json_file, plot)
         return
-    asked = FaultsAsked(faults, seeds, seed, pairs)
-    start = time.perf_counter()
-    with executor_for(workers, dask) as executor, progress_bar("Faults") as progress:
-        runs = faults_rows(asked, executor, progress)
-    finish(faults_report(runs, asked, time.perf_counter() - start), json_file, plot)
+    asked = Whole(
+        FaultsAsked(faults, seeds, seed, pairs),
+        Storm(cuts, shift if one_of("--world", world, WORLDS) == LIGHT else 0, seed),
+        0 if world == LIGHT else shift,
+    )
+    with executor_for(workers, dask) as executor:
+        report = whole_report(asked, executor, progress_bar)
+    finish(report, json_file, plot)

@@ -2,6 +2,20 @@
 
 from depal.app.light.cuts import Cut, Kind, Moment
 from depal.app.light.referee import Count
+from depal.app.light.report import storm_report
 from depal.app.light.run import LightJob, LightOutcome, run_light
+from depal.app.light.storm import Storm, Stormed, storm
 
-__all__ = ["Count", "Cut", "Kind", "LightJob", "LightOutcome", "Moment", "run_light"]
+__all__ = [
+    "Count",
+    "Cut",
+    "Kind",
+    "LightJob",
+    "LightOutcome",
+    "Moment",
+    "Storm",
+    "Stormed",
+    "run_light",
+    "storm",
+    "storm_report",
+]

@@ -19,7 +19,8 @@ SHOWN = 12
 
 def storm_report(done: Stormed, asked: Storm, seconds: float) -> Report:
     """The report; it holds when nothing is lost, doubled or misplaced but in the control."""
-    fields: dict[str, Json] = {"seed": asked.seed, "seconds": seconds}
+    cuts: dict[str, Json] = {}
+    fields: dict[str, Json] = {"storm": {"seed": asked.seed, "seconds": seconds}, "cuts": cuts}
     shown: list[RenderableType] = []
     holds = True
     heads = ("what", "runs", "cuts", "boxes", "stored", "lost", "doubled", "misplaced", "")
@@ -47,7 +48,7 @@ def storm_report(done: Stormed, asked: Storm, seconds: float) -> Report:
             str(count.misplaced),
             verdict(good, "met", "missed"),
         )
-        fields[name] = _fields(outcomes, count, wrongs)
+        (fields if name == "shift" else cuts)[name] = _fields(outcomes, count, wrongs)
         if name != "control":
             shown += [Text(line, style="red") for line in wrongs[:SHOWN]]
     if done.shift:

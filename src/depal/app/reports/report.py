@@ -29,6 +29,16 @@ class Report:
     holds: bool = True
 
 
+def together(*reports: Report) -> Report:
+    """Several reports as one: all their fields, one below the other; drawn is the first."""
+    return Report(
+        {name: value for report in reports for name, value in report.fields.items()},
+        [each for report in reports for each in report.shown],
+        next((report.draw for report in reports if report.draw is not None), None),
+        holds=all(report.holds for report in reports),
+    )
+
+
 def mean_and_std(sample: Sample) -> dict[str, Json]:
     """The fields of a mean with its population deviation."""
     return {"mean": sample.mean, "std": sample.std}
