@@ -39,6 +39,7 @@ class WorldHere:
         """Around this cell."""
         self.cell, self._clock = cell, clock
         self.arm, self.gripper, self.bays = cell.arm, cell.gripper, cell.bays
+        self.override = cell.arm
         self.safety, self.reader, self.cameras = cell.safety, cell.reader, cell.cameras
         self.deeds, self.truth_sight = Hands(cell), cell.sight
         self.built = Built("tiny", 1)

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
 from depal.cell.bookkeeping import Bookkeeping
+from depal.cell.bounds import refuse_unknown
 from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
@@ -50,8 +51,10 @@ class Controller:
             arm: that goes on after a stop when `restart_arm` lets it; None where none stops.
 
         Raises:
-            TaskError: the task files name an action that this cell does not know.
+            TaskError: the task files name an action that this cell does not know, or limit what
+                it does not keep.
         """
+        refuse_unknown(tasks)
         self.work = work
         self.desk = desk
         primitives, probes = bindings(work, desk, notes, arm)

@@ -371,6 +371,11 @@ class Session:
             found.insert(
                 0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
             )
+        safety = self.wired.controller.safety
+        if not safety.judgement.good and self.stage is Stage.WORKING:
+            text = f"Nothing moves: {safety.judgement.reason}."
+            todo = "See to the safety controller."
+            found.append(Alarm("safety", text, todo, safety.since, urgent=True))
         if self.stage is Stage.UNWRITTEN:
             todo = "Make room, then press Start."
             found = [Alarm("unwritten", self._reason, todo, self._around.clock.now())]
