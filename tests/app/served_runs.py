@@ -40,6 +40,7 @@ class WorldHere:
         self.cell, self._clock = cell, clock
         self.arm, self.gripper, self.bays = cell.arm, cell.gripper, cell.bays
         self.safety, self.reader, self.cameras = cell.safety, cell.reader, cell.cameras
+        self.override = cell.arm
         self.deeds, self.truth_sight = Hands(cell), cell.sight
         self.built = Built("tiny", 1)
 

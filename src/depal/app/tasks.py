@@ -11,6 +11,7 @@ from rich.text import Text
 
 from depal.app.files import Json, write_text
 from depal.app.reports.report import Report
+from depal.cell.bounds import QUANTITIES
 from depal.errors import Problem, SettingError, TaskError, did_you_mean
 from depal.executive.checking import Finding, check
 from depal.executive.conditions import Value, at_once
@@ -62,7 +63,7 @@ def check_report(names: Sequence[str]) -> Report:
         All findings; it holds where none is serious.
     """
     repository = repository_of(names)
-    findings = check(repository)
+    findings = check(repository, quantities=QUANTITIES)
     mistakes = sum(one.serious for one in findings)
     counts = f"{len(repository.schemata)} schemata, {len(repository.facts)} facts"
     said = f"{_counted(mistakes, 'mistake')}, {_counted(len(findings) - mistakes, 'remark')}"

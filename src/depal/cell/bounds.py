@@ -5,8 +5,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import Final
 
+from depal.errors import Problem, TaskError
+from depal.executive.checking import check_quantities
 from depal.executive.limits import Limits
 from depal.executive.runtime import Context
+from depal.executive.schema import Repository
 from depal.ports import Override
 
 SPEED, PAYLOAD = "speed", "payload"
@@ -14,6 +17,19 @@ SPEED, PAYLOAD = "speed", "payload"
 QUANTITIES: Final[Mapping[str, str]] = {SPEED: "m/s", PAYLOAD: "kg"}
 """What tasks may limit, and in which SI unit: the speed of flange and tool, and the mass of a box
 that is lifted."""
+
+
+def refuse_unknown(tasks: Repository) -> None:
+    """Tasks may limit only what is kept.
+
+    Raises:
+        TaskError: another quantity, or a unit of another one.
+    """
+    found = list(check_quantities(tasks, QUANTITIES))
+    if found:
+        raise TaskError(
+            "limits", [Problem(one.where, one.what, exists=one.exists) for one in found]
+        )
 
 
 class Bounds:

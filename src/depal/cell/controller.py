@@ -5,6 +5,7 @@ from collections.abc import Sequence
 
 from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
+from depal.cell.bounds import refuse_unknown
 from depal.cell.planning.desk import Desk
 from depal.cell.reporting import Journalist
 from depal.cell.safety import SafetyWatch
@@ -43,8 +44,10 @@ class Controller:
             engine: folded from that journal; None for one that knows nothing.
 
         Raises:
-            TaskError: the task files name an action that this cell does not know.
+            TaskError: the task files name an action that this cell does not know, or limit what
+                it does not keep.
         """
+        refuse_unknown(tasks)
         self.work = work
         self.desk = desk
         primitives, probes = bindings(work, desk, notes)

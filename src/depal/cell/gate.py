@@ -25,10 +25,13 @@ class Gate:
         """Whoever waits goes on."""
         self._open.set()
 
-    async def passed(self) -> None:
-        """Returns once it is open."""
+    async def passed(self, patience: float | None = None) -> None:
+        """Returns once it is open, or after so long [s]."""
         self.waiting += 1
         try:
-            await self._open.wait()
+            async with asyncio.timeout(patience):
+                await self._open.wait()
+        except TimeoutError:
+            return
         finally:
             self.waiting -= 1

@@ -175,7 +175,8 @@ class World:
         tips = np.array([(0.0, 0.0, 0.0), *(face.translation for face in faces)])
         frames = np.array([self._kinematics.frames(row)[6] for row in joints])
         turned: Floats = np.einsum("nij,kj->nki", frames[:, :, :3], tips)
-        return turned + frames[:, None, :, 3]
+        points: Floats = turned + frames[:, None, :, 3]
+        return points
 
     def joints(self) -> Joints:
         """Where the axes are [rad]."""

@@ -25,8 +25,11 @@ def mode_of(session: Session | None, alarms: Sequence[Alarm]) -> tuple[Mode, str
     if session is None:
         trouble = next((alarm.text for alarm in alarms if alarm.urgent), "")
         return (Mode.STOPPED, trouble) if trouble else (Mode.IDLE, "No delivery is started.")
-    if session.wired.work.ports.safety.state().stopped:
+    inputs = session.wired.controller.safety.read()
+    if inputs.tripped:
         return Mode.ABORTED, "A safety stop is active."
+    if inputs.suspended and session.stage is Stage.WORKING:
+        return Mode.SUSPENDED, f"Nothing moves: {inputs.reason}."
     if session.stage is Stage.WORKING:
         return _working(session)
     mode, reason = STANDING[session.stage]

@@ -342,6 +342,13 @@ class Session:
             found.insert(
                 0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
             )
+        safety = self.wired.controller.safety
+        if not safety.judgement.good and self.stage is Stage.WORKING:
+            text, todo = (
+                f"Nothing moves: {safety.judgement.reason}.",
+                "See to the safety controller.",
+            )
+            found.append(Alarm("safety", text, todo, safety.since, urgent=True))
         return tuple(sorted(found, key=lambda alarm: not alarm.urgent))
 
 

@@ -16,8 +16,9 @@ from depal.app.serve.pictures import Picture
 from depal.app.serve.seeing import seen_with
 from depal.app.serve.session import Session, Stage, Surroundings
 from depal.app.serve.statement import Moment, statement
+from depal.cell.safety import heard, judged
 from depal.domain import Request
-from depal.errors import DepalError
+from depal.errors import DepalError, DeviceError
 from depal.executive.clock import Clock
 from depal.executive.record import JOURNAL
 from depal.ports.wire.messages import Built
@@ -117,6 +118,7 @@ class Shift:
                 severity=means.severity,
                 number=order.run,
             )
+            self._refuse_blind_start()
             await self._open_session(order)
         except DepalError as error:
             text = f"Delivery {order.delivery.id} could not be started: {error}"
@@ -127,6 +129,16 @@ class Shift:
         finally:
             self._begun = None
             self.tell()
+
+    def _refuse_blind_start(self) -> None:
+        """Never a start without the safety inputs.
+
+        Raises:
+            DeviceError: they are silent, a stop is active, or somebody is before the arm.
+        """
+        inputs = judged(heard(self._world.safety), self._clock.now())
+        if not inputs.may_move:
+            raise DeviceError(inputs.reason)
 
     def _folder(self, order: Order) -> Path:
         return self._means.folder / "runs" / str(order.run)
@@ -189,8 +201,9 @@ class Shift:
         session = self._current()
         if session.stage is Stage.WORKING and not session.wired.work.gate.closed:
             raise Refusal("the cell is working")
-        if session.wired.work.ports.safety.state().stopped:
-            raise Refusal("a safety stop is active; it is released at the cell, not from here")
+        inputs = session.wired.controller.safety.read()
+        if not inputs.may_move:
+            raise Refusal(f"{inputs.reason}; that is seen to at the cell, not from here")
         self._trouble = None
         # A person need not wait until the arm has drawn clear: the state tells how it goes on.
         self._resuming = asyncio.create_task(self._go_on(session, source))

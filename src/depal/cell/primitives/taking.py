@@ -8,6 +8,7 @@ from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase
 from depal.cell.identity import beyond_seen, size_by_weight, why_not
+from depal.cell.payload import Payload
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.feeling import lifted_from, seals, sucked, under_cups
@@ -33,6 +34,9 @@ HEAVY, SPARE = 1.35, 0.5
 SAME = 1
 """The same side of a box is tried so often again before another one."""
 
+LOOKING = 1.0
+"""While no further box is begun it is looked this often whether this one is wanted still [s]."""
+
 SWINGING = 0.06
 """After the lift the load swings so long before it is weighed [s]."""
 
@@ -45,12 +49,13 @@ class Taking:
         self._work = work
         self._desk = desk
         self._guards = guards
+        self._payload = Payload()
 
     async def reach(self, context: Context) -> Report:
         """Moves the gripper to the face of the box."""
         box = BoxId(context.args["Box"])
-        if self._work.gate.closed:
-            await self._work.gate.passed()
+        while self._work.gate.closed:
+            await self._work.gate.passed(LOOKING)
             await context.checkpoint()
         unlike = await self._looked_at_anew(box)
         if unlike is not None:
@@ -58,6 +63,10 @@ class Taking:
         plan = await self._desk.picking.pick(box)
         if isinstance(plan, str):
             return Report(outcome=Outcome.FAILED, reason=plan)
+        least, _ = self._desk.picking.masses(plan.box)
+        refusal = self._payload.refusal(box, least, context.limits())
+        if refusal is not None:
+            return Report(outcome=Outcome.FAILED, reason=refusal)
         ports = self._work.ports
         if ports.gripper.folded() != plan.grasp.folded:
             await ports.gripper.fold(up=plan.grasp.folded)
@@ -83,6 +92,7 @@ class Taking:
         slipped = await ports.arm.follow(lift, self._guards.holding())
         await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
+        slipped = slipped or self._payload.felt(box, mass, context.limits())
         slipped = slipped or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped)

@@ -25,10 +25,13 @@ class SafetyWatch:
         self.judgement = Judgement(good=False)
         self.since = 0.0
 
+    def read(self) -> Judgement:
+        """What the inputs say now."""
+        return judged(heard(self._work.ports.safety), self._work.now, self.judgement)
+
     def look(self) -> None:
         """Reads the inputs and tells what has changed."""
-        work = self._work
-        judgement = judged(heard(work.ports.safety), work.now, self.judgement)
+        work, judgement = self._work, self.read()
         if judgement != self.judgement:
             self.judgement, self.since = judgement, work.now
         near = work.layout.speeds.near

@@ -2,5 +2,6 @@
 
 from depal.executive.checking.check import check
 from depal.executive.checking.findings import Finding, FindingKind
+from depal.executive.checking.values import check_quantities
 
-__all__ = ["Finding", "FindingKind", "check"]
+__all__ = ["Finding", "FindingKind", "check", "check_quantities"]
