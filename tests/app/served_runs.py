@@ -41,6 +41,7 @@ class WorldHere:
         self.arm, self.gripper, self.bays = cell.arm, cell.gripper, cell.bays
         self.override = cell.arm
         self.safety, self.reader, self.cameras = cell.safety, cell.reader, cell.cameras
+        self.override = cell.arm
         self.deeds, self.truth_sight = Hands(cell), cell.sight
         self.built = Built("tiny", 1)
 
