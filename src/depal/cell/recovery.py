@@ -67,6 +67,7 @@ class Recovery:
         return self.found
 
     def _takes_over(self, hand: Hand) -> None:
+        self._desk.promises.gone(hand.box)  # it hangs: its spot is free
         held = Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
         if self._work.departures.has_left(hand.box):
             self._work.held = held
@@ -114,6 +115,7 @@ class Recovery:
         if self.found is Found.HOLDING:
             self._takes_over(hand)
         elif answer == TAKEN:
+            self._desk.promises.gone(hand.box)
             self._work.ended(hand.box, Fate.BY_PERSON, reason="taken after a restart")
 
     async def _settle(self) -> None:
@@ -146,9 +148,11 @@ class Recovery:
             case Found.SET_DOWN | Found.PLACED if hand.place is not None:
                 await self._placed(hand)
             case Found.DROPPED:
+                self._desk.promises.gone(box)
                 work.dropped(box)
                 self._facts(hand, taken=False)
             case _:
+                self._desk.promises.gone(box)
                 work.lets_go()
                 self._facts(hand, taken=False)
 

@@ -102,8 +102,8 @@ class Promises:
         """The place is promised: nobody else gets it."""
         box = plan.load.box
         self.release(box)
-        self._carries[box] = plan
         self.books = self.books.put(plan.place, plan.spot.standing(box, plan.load.mass))
+        self._carries[box] = plan
         self._around.put(box, plan.place, OrientedBox(plan.target, plan.load.size))
 
     def release(self, box: BoxId) -> None:
