@@ -8,6 +8,7 @@ import typer
 
 from depal.cli.output import Dask, JsonFile, PlotFile, Seed, Workers
 from depal.cli.study import Pallets, check_targets, finish
+from depal.errors import SettingError
 
 beyond = typer.Typer()
 
@@ -231,11 +232,20 @@ def learning(  # noqa: PLR0913, PLR0917 - a command's options
 
 
 @beyond.command()
-def faults(
+def faults(  # noqa: PLR0913, PLR0917 - a command's options
     faults: Annotated[
         str, typer.Option(help="Ids of faults, with commas; all where none is named.")
     ] = "",
     seeds: Annotated[int, typer.Option(help="So many runs of each fault.", min=1)] = 3,
+    cuts: Annotated[
+        int,
+        typer.Option(
+            help="Instead: so many random ends of the controller, and all positions.", min=0
+        ),
+    ] = 0,
+    shift: Annotated[
+        int, typer.Option(help="Instead: a shift of so many boxes at published rates.", min=0)
+    ] = 0,
     seed: Seed = 0,
     workers: Workers = 1,
     dask: Dask = None,
@@ -248,8 +258,33 @@ def faults(
     from depal.studies.sweep import executor_for  # noqa: PLC0415
 
     check_targets(json_file, plot)
+    if cuts or shift:
+        _light(cuts, shift, seed, workers, dask, json_file)
+        return
     asked = FaultsAsked(faults, seeds, seed)
     start = time.perf_counter()
     with executor_for(workers, dask) as executor, progress_bar("Faults") as progress:
         runs = faults_rows(asked, executor, progress)
     finish(faults_report(runs, asked, time.perf_counter() - start), json_file, plot)
+
+
+def _light(
+    cuts: int, shift: int, seed: int, workers: int, dask: str | None, json_file: Path | None
+) -> None:
+    """Cuts or a shift over a light world."""
+    from depal.app.faults.cuts import cut_runs, cuts_report  # noqa: PLC0415 - fast help
+    from depal.app.faults.shift import shift_report, shift_runs  # noqa: PLC0415
+    from depal.app.progress import progress_bar  # noqa: PLC0415
+    from depal.studies.sweep import executor_for  # noqa: PLC0415
+
+    if cuts and shift:
+        raise SettingError("--shift", "cuts and a shift are two studies", "one of them")
+    start = time.perf_counter()
+    with executor_for(workers, dask) as executor, progress_bar("Light world") as progress:
+        if cuts:
+            runs = cut_runs(cuts, seed, executor, progress)
+            report = cuts_report(runs, seed, time.perf_counter() - start)
+        else:
+            outcomes = shift_runs(shift, seed, executor, progress)
+            report = shift_report(outcomes, seed, time.perf_counter() - start)
+    finish(report, json_file, None)

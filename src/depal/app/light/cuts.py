@@ -98,10 +98,10 @@ class Writes:
     def _passes(self, kind: Kind, moment: Moment) -> None:
         """The controller ends here, where the cut says so."""
         cut = self._cut
-        if cut is not None and cut.kind is kind and cut.moment is moment:
-            if self.count[kind] == cut.at:
-                self._life.end()
-                raise EndedError
+        here = cut is not None and cut.kind is kind and cut.moment is moment
+        if here and cut is not None and self.count[kind] == cut.at:
+            self._life.end()
+            raise EndedError
 
     def write_page(self, page: Page) -> None:
         """A write of the ledger."""

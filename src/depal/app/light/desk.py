@@ -235,7 +235,10 @@ class LightFeeling:
 def _grasp(size: Vector3) -> Grasp:
     """From above, with every cup of the lower module."""
     return Grasp(
-        Approach.VERTICAL, False, Pose((0.0, 0.0, size[2] / 2)), tuple((LOWER, k) for k in range(6))
+        Approach.VERTICAL,
+        folded=False,
+        box_from_flange=Pose((0.0, 0.0, size[2] / 2)),
+        cups=tuple((LOWER, k) for k in range(6)),
     )
 
 
@@ -296,5 +299,3 @@ def _along(corners: list[Corner], speed: float = 1.5) -> Trajectory:
             times.append(times[-1] + far / speed)
     rows = _rows(way)
     return Trajectory(np.array(times), rows, np.zeros_like(rows))
-
-

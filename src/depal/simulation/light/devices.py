@@ -95,9 +95,7 @@ class LightArm:
         """
         seat, world = self._seat, self._seat.world
         seat.life.check()
-        away = max(
-            abs(a - b) for a, b in zip(trajectory.start, world.axes, strict=True)
-        )
+        away = max(abs(a - b) for a, b in zip(trajectory.start, world.axes, strict=True))
         if away > NEAR:
             raise DeviceError(f"the trajectory begins {away:.3f} from where the arm stands")
         began = seat.now

@@ -1,4 +1,4 @@
-"""The worker beside a light world, who goes on with what was begun when the controller has ended."""
+"""The worker beside a light world, who ends what was begun though the controller has ended."""
 
 import asyncio
 
@@ -115,9 +115,7 @@ class LightPerson:
         lost = [
             box
             for box in there
-            if box.gtin == question.gtin
-            and box.where in {PALLET, FLOOR}
-            and box.index not in known
+            if box.gtin == question.gtin and box.where in {PALLET, FLOOR} and box.index not in known
         ]
         return next(iter(sorted(lost, key=lambda box: box.where != PALLET)), None)
 

@@ -92,7 +92,9 @@ class Course:
         for k in range(len(times) - 1):
             if since < times[k + 1]:
                 share = max(since - times[k], 0.0) / (times[k + 1] - times[k])
-                return [a + share * (b - a) for a, b in zip(corners[k], corners[k + 1], strict=True)]
+                return [
+                    a + share * (b - a) for a, b in zip(corners[k], corners[k + 1], strict=True)
+                ]
         return corners[-1]
 
 
@@ -182,8 +184,8 @@ class LightWorld:
             return
         turn = axes[3] - self.axes[3]
         self.axes = axes
-        for index, shift in self.held.items():
-            box = self.boxes[index]
+        for index, before in self.held.items():
+            box, shift = self.boxes[index], before
             pose = Pose.from_yaw((0.0, 0.0, 0.0), turn) @ box.shape.pose if turn else box.shape.pose
             shift = Pose.from_yaw((0.0, 0.0, 0.0), turn).apply(shift) if turn else shift
             self.held[index] = shift
@@ -229,9 +231,7 @@ class LightWorld:
         for other in self.boxes:
             if other.index == index or other.where != PALLET or other.top[2] < box.low[2]:
                 continue
-            gap = max(
-                max(other.low[k] - box.high[k], box.low[k] - other.high[k]) for k in range(2)
-            )
+            gap = max(max(other.low[k] - box.high[k], box.low[k] - other.high[k]) for k in range(2))
             if gap < BESIDE and other.low[2] < box.high[2] and not self.laden(other.index):
                 return other.index
         return None
@@ -303,7 +303,7 @@ class LightWorld:
         x, y, _ = box.shape.pose.translation
         space = next((s for s in self._places if s.contains(x, y, box.high[2])), None)
         if space is not None and self.bays[space.storage] is not None:
-            floor, where = space.floor, space.name
+            floor, where = space.floor, str(space.name)
         elif self._over_pallet(x, y):
             floor, where = self._deck, PALLET
         else:
