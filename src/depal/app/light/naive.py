@@ -4,12 +4,48 @@ At least once, as a queue of jobs would do it. It believes its journal and reads
 works so. It shows that the referee can see what exactly one placement prevents.
 """
 
+from collections.abc import Mapping
+from dataclasses import replace
+
 from depal.app.run.assembly import Assembly
+from depal.cell.ledger import Page
 from depal.cell.planning.loads import expected_mass
 from depal.cell.workplace import Held
-from depal.domain import BoxId
+from depal.domain import BoxId, Joints
+from depal.ports import Arm, Guard, Trajectory
 
 TAKEN = ".taken"
+
+
+class BlindArm:
+    """An arm that follows to the end, whatever the vacuum says."""
+
+    def __init__(self, arm: Arm) -> None:
+        """In front of this one."""
+        self._arm = arm
+
+    def joints(self) -> Joints:
+        """Where the axes are."""
+        return self._arm.joints()
+
+    def load(self) -> float:
+        """What hangs on the flange [kg]."""
+        return self._arm.load()
+
+    async def follow(self, trajectory: Trajectory, guard: Guard | None = None) -> str | None:
+        """Moves; nobody watches."""
+        del guard
+        return await self._arm.follow(trajectory)
+
+
+def believed(page: Page, facts: Mapping[str, object]) -> Page:
+    """What of a page the journal confirms: a step without an end was not done."""
+    return replace(
+        page,
+        hand=None,
+        departures=tuple(d for d in page.departures if facts.get(f"{d.box}.stored")),
+        kept=tuple(kept for kept in page.kept if facts.get(f"{kept.standing.id}.stored")),
+    )
 
 
 class NaiveRecovery:
@@ -30,7 +66,7 @@ class NaiveRecovery:
         work.tell([*self._facts, ("kr60.at", None)], "journal")
         for key, value in self._facts:
             box = BoxId(key.removesuffix(TAKEN))
-            if value and not work.departures.has_ended(box):
+            if value:
                 self._hold(box)
         work.runtime.start("journal")
 

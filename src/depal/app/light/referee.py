@@ -15,6 +15,9 @@ from depal.simulation.witness import name_of
 STILL = 3_600.0
 """Nothing may stand still for longer than this [s]: no person takes so long (I6)."""
 
+SPARE = 1e-6
+"""A box leaves the pallet once: two ends that name other times are two [s]."""
+
 SEAM = 0.002
 """Boxes in one place that overlap by more than this are in one slot [m]."""
 
@@ -75,6 +78,7 @@ class Referee:
         self._served: dict[str, BoxId | None] = {}
         self._asked = 0
         self._moved = 0.0
+        self._twice: set[BoxId] = set()
         self.wrongs: list[str] = []
         self.steps = 0
         cell.world.listen(self.look)
@@ -130,6 +134,9 @@ class Referee:
                     f"I3: {departure.box} has ended as {before.fate.value} and as "
                     f"{departure.fate.value}"
                 )
+            if abs(before.at - departure.at) > SPARE:
+                self._twice.add(departure.box)
+                self._breach(f"I3: {departure.box} has ended twice")
             why = self._untrue(departure)
             if why is not None:
                 self._breach(f"I1, I4: {departure.box} is {departure.fate.value}: {why}")
@@ -241,6 +248,16 @@ class Referee:
             box = self._meant(name)
             if times > 1 and box is not None:
                 self._breach(f"I3: the store was told {times} times of {name}")
+                out.add(box.index)
+        ended = Counter(
+            box.index
+            for departure in self._ended.values()
+            if (box := self._meant(departure.box)) is not None
+        )
+        out |= {index for index, times in ended.items() if times > 1}
+        for name in self._twice:
+            box = self._meant(name)
+            if box is not None:
                 out.add(box.index)
         self._told()
         return out

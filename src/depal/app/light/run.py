@@ -10,7 +10,7 @@ import numpy as np
 
 from depal.app.light.cuts import Cut, Disk, Kind, Writes
 from depal.app.light.desk import light_desk
-from depal.app.light.naive import NaiveRecovery
+from depal.app.light.naive import BlindArm, NaiveRecovery, believed
 from depal.app.light.referee import Count, Referee
 from depal.app.run.assembly import Assembly, Wiring, assemble
 from depal.cell.ledger import page_of, restore
@@ -188,7 +188,7 @@ class _Run:
     def _wired(self, cell: LightCell, life: Life, writes: Writes, *, again: bool) -> Assembly:
         devices = cell.devices(life)
         ports = Ports(
-            arm=devices.arm,
+            arm=BlindArm(devices.arm) if self._job.naive else devices.arm,
             override=devices.arm,
             gripper=devices.gripper,
             reader=devices.reader,
@@ -220,6 +220,8 @@ class _Run:
         """As a served cell is taken up: restored, held, reconciled, and on after a start."""
         page, motions = self._disk.last_page(), cell.world.motions
         work, desk = wired.work, wired.desk
+        if self._job.naive:
+            page = believed(page, wired.controller.runtime.engine.state.facts)
         restore(page, work, desk.promises)
         self._want(wired)
         if self._job.naive:

@@ -1,4 +1,4 @@
-"""The worker beside a light world, who goes on when the controller has ended."""
+"""The worker beside a light world, who ends what was begun though the controller has ended."""
 
 import asyncio
 

@@ -184,8 +184,8 @@ class LightWorld:
             return
         turn = axes[3] - self.axes[3]
         self.axes = axes
-        for index, shift in self.held.items():
-            box = self.boxes[index]
+        for index, before in self.held.items():
+            box, shift = self.boxes[index], before
             pose = Pose.from_yaw((0.0, 0.0, 0.0), turn) @ box.shape.pose if turn else box.shape.pose
             x, y, z = Pose.from_yaw((0.0, 0.0, 0.0), turn).apply(shift) if turn else shift
             self.held[index] = (x, y, z)
