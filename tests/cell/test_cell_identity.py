@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from depal.cell.identity import (
     beyond_seen,
     fits,
+    may_be_two,
     plausible,
     size_by_weight,
     told_size,
@@ -173,3 +174,23 @@ def test_a_box_that_weighs_like_nothing_of_its_size_may_be_higher_than_all() -> 
     seen = (0.22, 0.22, 0.2)
     assert seen[2] + beyond_seen(delivery, seen, 3.0)[2] > 0.3
     assert beyond_seen(delivery, seen, 6.4) == (0.0, 0.0, 0.0)
+
+
+kilos = st.floats(0.5, 20.0)
+
+
+@given(kilos, kilos, st.floats(-0.05, 0.05))
+def test_what_weighs_like_its_product_is_one_box_and_what_weighs_like_two_is_two(
+    mass: float, other: float, error: float
+) -> None:
+    """A neighbour that sticks is told by the weight, unless it is too light to be told."""
+    one, two = product((0.3, 0.2, 0.2), mass, "a"), product((0.3, 0.2, 0.25), other, "b")
+    felt = (mass + other) * (1 + error)
+    assert not may_be_two((one,), note(one, two), mass * (1 + error))
+    assert may_be_two((one,), note(one, two), felt) is not weighs_like(one, felt)
+
+
+@given(kilos)
+def test_where_nobody_knows_what_a_box_can_be_its_weight_tells_nothing(mass: float) -> None:
+    """No product fits it."""
+    assert not may_be_two((), note(product((0.3, 0.2, 0.2), mass)), 2 * mass)

@@ -1,6 +1,7 @@
 """Whether a box can be the product that somebody says it is: by its size and by what it weighs."""
 
 import itertools
+from collections.abc import Collection
 
 import numpy as np
 
@@ -67,6 +68,21 @@ def plausible(delivery: Delivery, size: Vector3, *, unsized: bool = False) -> tu
     """The products of the note that a box of this size can be."""
     products = delivery.products.values()
     return tuple(product for product in products if fits(product, size, unsized=unsized))
+
+
+def may_be_two(products: Collection[Product], delivery: Delivery, mass: float) -> bool:
+    """Whether what hangs on the arm weighs like two boxes, and like none that it can be alone.
+
+    Args:
+        products: what the box that was taken can be.
+        delivery: its neighbours' products.
+        mass: as felt [kg].
+    """
+    if any(weighs_like(product, mass) for product in products):
+        return False
+    others = delivery.products.values()
+    pairs = (one.mass + other.mass for one in products for other in others)
+    return any(abs(mass - both) <= MASS_SHARE * both + MASS_SPARE for both in pairs)
 
 
 def size_by_weight(delivery: Delivery, size: Vector3, mass: float) -> Vector3 | None:

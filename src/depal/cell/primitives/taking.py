@@ -7,7 +7,7 @@ from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase, most_of
-from depal.cell.identity import beyond_seen, size_by_weight, why_not
+from depal.cell.identity import beyond_seen, may_be_two, plausible, size_by_weight, why_not
 from depal.cell.payload import Payload
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
@@ -28,6 +28,9 @@ LIGHT = 0.25
 NOTHING = 0.15
 """Where nobody knows what to expect, less than this is nothing [kg]."""
 
+
+TWICE = 2
+"""What weighs like two boxes is put back so often; then it is one of another weight."""
 
 SAME = 1
 """The same side of a box is tried so often again before another one."""
@@ -137,6 +140,11 @@ class Taking:
             else:
                 work.tries[plan.box.id] = VAIN  # it is two boxes, or part of something else
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
+        named = work.product_of(plan.box)
+        products = (named,) if named else plausible(work.delivery, plan.box.shape.size)
+        doubtful = work.tries.get(plan.box.id, 0) < TWICE
+        if doubtful and may_be_two(products, work.delivery, mass):
+            return f"{mass:.1f} kg hang on the arm, which two boxes weigh together"
         return None
 
     def _doubt_identity(self, plan: PickPlan, mass: float) -> None:
