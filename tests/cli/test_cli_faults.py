@@ -121,3 +121,22 @@ def test_a_record_that_the_disk_does_not_take_is_one_error_and_what_is_written_i
     assert said.startswith("error: the cell has stopped where it was: ")
     with SqliteJournal(record / "journal.db", readonly=True) as journal:
         assert journal.verify() > 0
+
+
+def test_a_shift_alone_is_run_and_what_was_found_is_written(depal: Run, tmp_path: Path) -> None:
+    """Nothing but the shift where no faults are asked for."""
+    path = tmp_path / "shift.json"
+    status, _, told = depal("study", "faults", "--seeds", 0, "--shift", 12, "--json", path)
+    assert status == 0, told
+    shift = json.loads(path.read_text("utf-8"))["shift"]
+    assert (shift["boxes"], shift["lost"], shift["misplaced"]) == (12, 0, 0)
+
+
+def test_nothing_to_run_and_an_unknown_world_are_told(depal: Run) -> None:
+    """One error each, with what there is."""
+    status, _, told = depal("study", "faults", "--seeds", 0)
+    assert (status, told.count("\n")) == (2, 1)
+    assert "nothing is to be run" in told
+    status, _, told = depal("study", "faults", "--shift", 5, "--world", "moon")
+    assert status == 2
+    assert "light, physics" in told

@@ -1,16 +1,11 @@
 """Crash cuts and long shifts: what is run, what is summed up, and what is called met."""
 
-import json
-from pathlib import Path
-
 from hypothesis import given
 from hypothesis import strategies as st
-from typer.testing import CliRunner
 
 from depal.app.faults.shift import pallets_for, stacks
 from depal.app.light import Count, Kind, LightJob, LightOutcome, Storm, Stormed, storm_report
 from depal.app.light.storm import PALLET, at_every_write, at_random, shift_of
-from depal.cli import app
 
 WHOLE = LightOutcome(LightJob(10, 7), Count(boxes=10, stored=10), writes={Kind.JOURNAL: 4})
 
@@ -57,23 +52,3 @@ def test_a_lost_box_or_a_control_that_loses_nothing_is_no_success() -> None:
     assert not storm_report(Stormed((WHOLE,), (lost,), (lost,)), asked, 1.0).holds
     assert not storm_report(Stormed((WHOLE,), (WHOLE,), (WHOLE,)), asked, 1.0).holds
     assert not storm_report(Stormed(shift=(lost,)), asked, 1.0).holds
-
-
-def test_the_command_runs_a_shift_and_writes_what_it_has_found(tmp_path: Path) -> None:
-    """Nothing but the shift where no faults are asked for."""
-    path = tmp_path / "shift.json"
-    arguments = ["study", "faults", "--seeds", "0", "--shift", "12", "--json", str(path)]
-    ended = CliRunner().invoke(app, arguments)
-    assert ended.exit_code == 0, ended.output
-    shift = json.loads(path.read_text("utf-8"))["shift"]
-    assert (shift["boxes"], shift["lost"], shift["misplaced"]) == (12, 0, 0)
-
-
-def test_nothing_to_run_and_an_unknown_world_are_told() -> None:
-    """One error each, with what there is."""
-    nothing = CliRunner().invoke(app, ["study", "faults", "--seeds", "0"])
-    assert nothing.exit_code == 2
-    assert "nothing is to be run" in nothing.output
-    world = CliRunner().invoke(app, ["study", "faults", "--shift", "5", "--world", "moon"])
-    assert world.exit_code == 2
-    assert "light, physics" in world.output
