@@ -1,6 +1,7 @@
 """Answers to faults: a box whose action gave up is set aside, left behind, or handed over."""
 
 import asyncio
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 from depal.cell.departures import Fate
@@ -11,8 +12,10 @@ from depal.executive import events as ev
 from depal.executive.engine import Call
 from depal.ports import TAKEN, Question
 
-STORE, ASIDE, EMPTY = "store", "set_aside", "depalletize"
+STORE, ASIDE, EMPTY, RECOVER = "store", "set_aside", "depalletize", "recover"
 
+STEPS = frozenset({"look_again", "carry_on"})
+"""Actions of `recover` that need the cameras; from any other fault of a box it recovers."""
 
 SEEN_TO, HOPELESS = "I have seen to it", "that cannot be helped now"
 
@@ -34,7 +37,8 @@ class Answers:
         self._work = work
         self._promises = promises
         self._answered = answered
-        self._help, self._waiting = 0, False
+        self._help: Counter[str] = Counter()
+        self._waiting = False
         self._handing: set[asyncio.Task[None]] = set()
         self._trees: dict[int, int] = {}
         self._why: dict[int, str] = {}
@@ -62,7 +66,8 @@ class Answers:
             schema, args = tree.root.node.schema.name, tree.root.node.args
             if tree.withdrawn is not None:
                 continue
-            if schema == EMPTY and state.facts.get(f"{args[0]}.fault"):
+            blind = schema == EMPTY or (schema == RECOVER and self._cannot_recover(args[0]))
+            if blind and state.facts.get(f"{args[0]}.fault"):
                 self._held(number, args[0], str(state.facts[f"{args[0]}.fault"]))
             if schema not in {STORE, ASIDE}:
                 continue
@@ -74,37 +79,41 @@ class Answers:
             if fault:
                 self._give_up(number, schema, box, self._why.pop(number, str(fault)))
 
-    def _held(self, number: int, pallet: str, fault: str) -> None:
+    def _cannot_recover(self, box: str) -> bool:
+        """Whether what should answer a box's fault has itself given up."""
+        return self._work.runtime.engine.state.facts.get(f"{box}.fault") in STEPS
+
+    def _held(self, number: int, about: str, fault: str) -> None:
         """Nobody can see or choose any more: nothing is grasped until a person has seen to it.
 
         What stays so, or what the person cannot change, ends the run once what has begun is done.
         """
         if self._waiting:
             return
-        if self._help >= HELP:
+        if self._help[about] >= HELP:
             self._work.runtime.withdraw(number, fault)
             return
-        self._help += 1
+        self._help[about] += 1
         self._waiting = True
         why = self._why.pop(number, fault)
-        task = asyncio.get_running_loop().create_task(self._have_seen_to(number, pallet, why))
+        task = asyncio.get_running_loop().create_task(self._have_seen_to(number, about, why))
         self._handing.add(task)
         task.add_done_callback(self._handed_over)
 
-    async def _have_seen_to(self, number: int, pallet: str, why: str) -> None:
+    async def _have_seen_to(self, number: int, about: str, why: str) -> None:
         question = Question(
-            f"sight/{pallet}/{self._help}",
+            f"sight/{about}/{self._help[about]}",
             f"The cell is held: {why}. Please see to it.",
             (SEEN_TO, HOPELESS),
-            pallet,
+            about,
         )
         answer = await self._work.questions.ask(question)
         self._waiting = False
         if answer == SEEN_TO:
-            facts = [(f"{pallet}.fault", None), (f"{pallet}.attempts", 0)]
+            facts = [(f"{about}.fault", None), (f"{about}.attempts", 0)]
             self._work.runtime.change(facts, "person")
         else:
-            self._help = HELP
+            self._help[about] = HELP
             self._work.runtime.withdraw(number, why)
 
     def _let_lie(self, number: int, box: BoxId) -> None:

@@ -113,12 +113,13 @@ def test_motions_can_be_probed_and_messages_sent_again(cell: Repository) -> None
     for action in cell.schemata.values():
         if not isinstance(action, Action):
             continue
-        moves = action.name.startswith("kr60_")
+        moves = action.name.startswith("kr60_") or action.name == "draw_back"
         assert (action.probe is not None) == moves
         assert action.idempotent != moves
         if moves:
             suction = action.probe == "gripper"
-            assert action.cancel is (Cancel.NEVER if suction else Cancel.AT_CHECKPOINT)
+            whole = suction or action.name == "draw_back"
+            assert action.cancel is (Cancel.NEVER if whole else Cancel.AT_CHECKPOINT)
 
 
 def test_putting_down_is_one_change(cell: Repository) -> None:

@@ -55,7 +55,9 @@ class Carrying:
         if load is None:
             return f"box {box} is neither held nor about to be"
         self._lists.setdefault(box, tuple(places))
-        before = self._planner.planned
+        before, held = self._planner.planned, self._work.held
+        if held is not None and held.box == box:
+            self._promises.give_way(box, places)
         with self._promises.searching(box):
             plan = self._first_place(load, places)
             if isinstance(plan, str) and self._promises.may_change(box):

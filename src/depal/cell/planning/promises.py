@@ -1,7 +1,7 @@
 """What is planned and not yet done: kept picks, promised spots, and where the arm will be."""
 
 import asyncio
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 from depal.cell.pile import Pile
@@ -111,6 +111,20 @@ class Promises:
         if self._carries.pop(box, None) is not None:
             self.books = self.books.take(box)
             self._around.take(box)
+
+    def give_way(self, box: BoxId, places: Collection[PlaceId]) -> None:
+        """A box that hangs in the hand gets its place first: what comes later is planned anew.
+
+        Else it could be put onto the spot of a box that is not there yet.
+
+        Args:
+            box: in the hand, without a place.
+            places: that it may go to.
+        """
+        later = [each for each, plan in self._carries.items() if plan.place in places]
+        for each in later:
+            if each != box:
+                self.release(each)
 
     def forget_carry(self, box: BoxId) -> None:
         """The box did not get to its place."""
