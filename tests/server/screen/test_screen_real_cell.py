@@ -46,8 +46,7 @@ def test_a_delivery_runs_after_three_clicks_and_is_watched_to_its_end(
         visit.mode("Held")
         lowest = visit.queue()[-1]
         visit.press("Request a case", ".wishes .head")
-        visit.page.get_by_label("Search a product or a box").fill(lowest)
-        visit.press(f"Box {lowest}", ".form")
+        visit.chooses(f"Box {lowest}", lowest)
         visit.press("Now", ".form")
         visit.press("Request a case", ".form .acts")
         visit.sees(f"Box {lowest}", ".wish")
