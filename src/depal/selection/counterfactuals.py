@@ -103,9 +103,11 @@ def by_priority(now: Situation, target: BoxId) -> Iterator[Change]:
         share = now.rule.w
         score = share * low + (1 - share) * now.h
         # Where w p + (1 - w) h of a pulled box meets the score of another box without r.
-        meeting = (score[None, :] - (1 - share) * now.h[pulled, None]) / share
+        with np.errstate(over="ignore"):  # a weight near 0 meets others far beyond 1 only
+            meeting = (score[None, :] - (1 - share) * now.h[pulled, None]) / share
+        meeting = meeting[np.isfinite(meeting)]
         seen: set[Side] = set()
-        for value, side in _ordered(meeting.ravel(), request.priority):
+        for value, side in _ordered(meeting, request.priority):
             beyond = value + _STEPS[side]
             if side in seen or not 0.0 <= beyond <= 1.0:
                 continue
