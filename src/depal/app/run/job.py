@@ -11,7 +11,7 @@ from depal.app.files import write_json
 from depal.app.progress import progress_bar
 from depal.app.reports.report import Report
 from depal.app.run.accounting import Onlooker, left_behind, meant
-from depal.app.run.assembly import Wiring, assemble
+from depal.app.run.assembly import Assembly, Wiring, assemble
 from depal.app.run.case2 import NAME as CASE2
 from depal.app.run.case2 import case2_delivery, case2_names, case2_requests
 from depal.app.run.eyes import camera_sight
@@ -182,21 +182,8 @@ async def _run(
     store.seed_places([job.told], places, seed=job.seed)
     injection = Injection.into(cell, job.faults, job.seed, clock)
     sight = seeing(job, cell, clock, injection)
-    wiring = Wiring(
-        job.layout,
-        job.told,
-        job.settings,
-        tasks,
-        injection.journal(keeper.journal),
-        seed=job.seed,
-        impossible=job.impossible,
-        cone=job.cone,
-    )
-    wired = assemble(wiring, _ports(cell, injection, store, sight))
+    wired = _wired(job, tasks, keeper, injection, _ports(cell, injection, store, sight))
     work, desk, notes, controller = wired.work, wired.desk, wired.notes, wired.controller
-    if isinstance(desk, MotionDesk):
-        desk.planner.mover = injection.mover(desk.planner.mover)
-    work.keep = controller.books.keeping(injection.page)
     keeper.listen_to(notes)
     Onlooker(cell.witness).listen_to(notes)
     view = LiveView(work, len(job.told.boxes))
@@ -234,6 +221,27 @@ async def _run(
         recoveries=tuple(recoveries.seconds),
     )
     return replace(outcome, scores=scores.scores), film
+
+
+def _wired(
+    job: Job, tasks: Repository, keeper: Keeper, injection: Injection, ports: Ports
+) -> Assembly:
+    """The controller of a run; planner, journal and ledger may fail as the job says."""
+    wiring = Wiring(
+        job.layout,
+        job.told,
+        job.settings,
+        tasks,
+        injection.journal(keeper.journal),
+        seed=job.seed,
+        impossible=job.impossible,
+        cone=job.cone,
+    )
+    wired = assemble(wiring, ports)
+    if isinstance(wired.desk, MotionDesk):
+        wired.desk.planner.mover = injection.mover(wired.desk.planner.mover)
+    wired.work.keep = wired.controller.books.keeping(injection.page)
+    return wired
 
 
 def _close_books(
