@@ -77,14 +77,15 @@ def test_the_direction_of_edges_is_found(rectangle: Rectangle) -> None:
 def test_a_face_is_among_the_proposals_with_its_size_known_or_not(
     rectangle: Rectangle, told: str
 ) -> None:
-    """Some candidate covers it well."""
+    """Some candidate covers it: no side is more than two pixels off."""
     raster = raster_with([rectangle])
     seams = [seams_of(raster, turn) for turn in directions_of(raster, 2)]
     sizes = [(rectangle.width, rectangle.height)] if told else []
     found = by_lines(seams, sizes)
     near = np.hypot(found.values[:, 0] - rectangle.u, found.values[:, 1] - rectangle.v) < 0.02
     some = [Rectangle(*row) for row in found.values[near][:400].tolist()]
-    assert max(overlap(each, rectangle) for each in some) > 0.85
+    off = 4 * STEP * (1 / rectangle.width + 1 / rectangle.height)
+    assert max(overlap(each, rectangle) for each in some) > 1 - off
 
 
 def test_evidence_lies_on_edges_and_along_them() -> None:
