@@ -140,3 +140,23 @@ def test_nothing_to_run_and_an_unknown_world_are_told(depal: Run) -> None:
     status, _, told = depal("study", "faults", "--shift", 5, "--world", "moon")
     assert status == 2
     assert "light, physics" in told
+
+
+def test_a_study_goes_on_from_the_runs_that_are_kept(depal: Run, tmp_path: Path) -> None:
+    """The same table, and nothing is run again; a damaged run is."""
+    kept, first, second = tmp_path / "kept", tmp_path / "1.json", tmp_path / "2.json"
+    words = ("study", "faults", "--faults", "W3", "--seeds", 1, "--shift", 12, "--keep", kept)
+    assert depal(*words, "--json", first)[0] == 0
+    files = {path.name: path.read_bytes() for path in kept.iterdir()}
+    assert len(files) == 2
+    assert depal(*words, "--json", second)[0] == 0
+    assert {path.name: path.read_bytes() for path in kept.iterdir()} == files
+    rows = [json.loads(path.read_text("utf-8"))["rows"] for path in (first, second)]
+    assert rows[0] == rows[1]
+    (damaged,) = (path for path in kept.iterdir() if path.name.startswith("W3"))
+    damaged.write_text("{", "utf-8")
+    assert depal(*words, "--json", second)[0] == 0
+    again = json.loads(damaged.read_text("utf-8"))
+    before = json.loads(files[damaged.name])
+    assert again["events_sha256"] == before["events_sha256"]
+    assert again["verdict"] == before["verdict"]

@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from depal import __version__
 from depal.app.run.values import Job
 from depal.app.throughput import Asked, Failure, Row, runs, summary_of, throughput
-from depal.app.throughput.kept import Kept, key_of
+from depal.app.throughput.runs import kept_rows
 from depal.errors import SettingError
 from depal.logistics import shipped_deliveries
+from depal.studies.kept import key_of
 
 Run = Callable[..., tuple[int, str, str]]
 Fields = dict[str, Any]
@@ -202,10 +203,10 @@ def test_a_kept_run_is_of_one_delivery_seed_version_and_set_of_options(
     """Anything else is run anew."""
     asked = Asked(deliveries="dev-035")
     (job,) = asked.jobs()
-    kept = Kept(tmp_path)
-    kept.keep(job, ran(job))
+    kept = kept_rows(tmp_path)
+    kept.keep(job, Row.of(ran(job)))
     (same,) = asked.jobs()
-    assert kept.row(same) == Row.of(ran(job))
+    assert kept.get(same) == Row.of(ran(job))
     others = [
         *replace(asked, deliveries="dev-024").jobs(),
         *replace(asked, seed=1).jobs(),
@@ -214,10 +215,10 @@ def test_a_kept_run_is_of_one_delivery_seed_version_and_set_of_options(
         *replace(asked, requests=2).jobs(),
         replace(job, delivery=replace(job.delivery, stack=(job.delivery.stack or ())[1:])),
     ]
-    assert [kept.row(other) for other in others] == [None] * len(others)
+    assert [kept.get(other) for other in others] == [None] * len(others)
     assert len({key_of(each) for each in (job, *others)}) == len(others) + 1
-    monkeypatch.setattr("depal.app.throughput.kept.__version__", "0.0.0")
-    assert kept.row(job) is None
+    monkeypatch.setattr("depal.studies.kept.__version__", "0.0.0")
+    assert kept.get(job) is None
 
 
 @pytest.mark.parametrize("damage", ["", "{", "[]", "{}", "nul\0"])
@@ -237,9 +238,9 @@ def test_names_of_deliveries_are_no_paths(tmp_path: Path) -> None:
     """Whatever an id holds, the file is in the folder."""
     (job,) = Asked(deliveries="dev-035").jobs()
     odd = replace(job, delivery=replace(job.delivery, id="../../b/" + "x" * 300))
-    kept = Kept(tmp_path / "kept")
-    kept.keep(odd, ran(odd))
-    assert kept.row(odd) is not None
+    kept = kept_rows(tmp_path / "kept")
+    kept.keep(odd, Row.of(ran(odd)))
+    assert kept.get(odd) is not None
     assert [path.name for path in tmp_path.iterdir()] == ["kept"]
 
 

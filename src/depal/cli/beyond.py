@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from depal.cli.output import Dask, JsonFile, PlotFile, Seed, Workers
+from depal.cli.output import Dask, JsonFile, Keep, PlotFile, Seed, Workers
 from depal.cli.study import Pallets, check_targets, finish
 from depal.errors import SettingError
 
@@ -271,6 +271,7 @@ def faults(  # noqa: PLR0913, PLR0917 - a command's options
     record: Annotated[
         Path | None, typer.Option(help="With --replay: keep its record in this new folder.")
     ] = None,
+    keep: Keep = None,
     json_file: JsonFile = None,
     plot: PlotFile = None,
 ) -> None:
@@ -298,6 +299,7 @@ def faults(  # noqa: PLR0913, PLR0917 - a command's options
         FaultsAsked(faults, seeds, seed, pairs),
         Storm(cuts, shift if one_of("--world", world, WORLDS) == LIGHT else 0, seed),
         0 if world == LIGHT else shift,
+        keep,
     )
     with executor_for(workers, dask) as executor:
         report = whole_report(asked, executor, progress_bar)

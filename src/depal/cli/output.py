@@ -23,6 +23,14 @@ Dask = Annotated[
     typer.Option(help="Work on the Dask cluster at this address.", show_default=False),
 ]
 
+Keep = Annotated[
+    Path | None,
+    typer.Option(
+        help="Keep finished runs in this folder; an interrupted study goes on from there.",
+        show_default=False,
+    ),
+]
+
 _PIPE_WIDTH = 132
 
 

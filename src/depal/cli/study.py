@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from depal.cli.output import Dask, JsonFile, PlotFile, Seed, Workers, console
+from depal.cli.output import Dask, JsonFile, Keep, PlotFile, Seed, Workers, console
 from depal.errors import SettingError
 
 if TYPE_CHECKING:
@@ -208,13 +208,7 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     ] = "paper",
     workers: Workers = 1,
     dask: Dask = None,
-    keep: Annotated[
-        Path | None,
-        typer.Option(
-            help="Keep finished runs in this folder; an interrupted study goes on from there.",
-            show_default=False,
-        ),
-    ] = None,
+    keep: Keep = None,
     json_file: JsonFile = None,
     plot: PlotFile = None,
 ) -> None:

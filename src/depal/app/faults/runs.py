@@ -29,7 +29,8 @@ from depal.errors import SettingError
 from depal.geometry import Vector3
 from depal.simulation.faults import CATALOGUE, FaultPlan
 from depal.simulation.truth_sight import SightSettings
-from depal.studies.sweep import Progress, no_progress, sweep
+from depal.studies.kept import Kept, sweep_kept
+from depal.studies.sweep import Progress, no_progress
 
 CASES: tuple[tuple[Vector3, Vector3, float], ...] = (
     ((0.30, 0.0, 0.0), (0.28, 0.25, 0.22), 4.0),
@@ -114,14 +115,29 @@ class Ran:
 
 
 def faults_rows(
-    asked: FaultsAsked, executor: Executor | None = None, progress: Progress = no_progress
+    asked: FaultsAsked,
+    executor: Executor | None = None,
+    progress: Progress = no_progress,
+    keep: Path | None = None,
 ) -> list[Ran]:
     """Every fault with every seed, then pairs: three boxes, at steps and in phases of the seed.
 
+    Args:
+        asked: the options.
+        executor: where the runs are done; None for this process.
+        progress: told after each run.
+        keep: a folder for finished runs; those that it has already are not run again.
+
     Raises:
-        SettingError: a fault that is not in the catalogue.
+        SettingError: a fault that is not in the catalogue, or a folder that cannot be used.
     """
-    return sweep(run_one, asked.pieces, executor, progress)
+    kept = Kept.of(keep, name_of, Ran)
+    return sweep_kept(run_one, asked.pieces, kept, executor, progress)
+
+
+def name_of(piece: Piece) -> str:
+    """Of the file that keeps a run."""
+    return f"{piece.name}-{piece.seed}"
 
 
 def run_one(piece: Piece, record: Path | None = None) -> Ran:

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
+from pathlib import Path
 
 from rich.console import RenderableType
 from rich.text import Text
@@ -18,8 +19,9 @@ from depal.domain import Delivery
 from depal.logistics import shipped_deliveries
 from depal.simulation.faults import Fault, FaultPlan, When
 from depal.simulation.light import SOAK
+from depal.studies.kept import Kept, sweep_kept
 from depal.studies.statistics import Share
-from depal.studies.sweep import Progress, no_progress, sweep
+from depal.studies.sweep import Progress, no_progress
 
 RATES = FaultPlan(
     (
@@ -88,10 +90,23 @@ def pallets_for(boxes: int, seed: int) -> list[Pallet]:
 
 
 def shift_with_physics(
-    boxes: int, seed: int, executor: Executor | None = None, progress: Progress = no_progress
+    boxes: int,
+    seed: int,
+    executor: Executor | None = None,
+    progress: Progress = no_progress,
+    keep: Path | None = None,
 ) -> list[Emptied]:
-    """Empties pallets with at least so many boxes together."""
-    return sweep(empty, pallets_for(boxes, seed), executor, progress)
+    """Empties pallets with at least so many boxes together; those that `keep` has are not again.
+
+    Raises:
+        SettingError: the folder `keep` cannot be used.
+    """
+    kept = Kept.of(keep, _name, Emptied)
+    return sweep_kept(empty, pallets_for(boxes, seed), kept, executor, progress)
+
+
+def _name(pallet: Pallet) -> str:
+    return f"shift-{pallet.number}-{pallet.seed}"
 
 
 def empty(pallet: Pallet) -> Emptied:

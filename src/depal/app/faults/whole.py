@@ -5,6 +5,7 @@ from collections.abc import Callable
 from concurrent.futures import Executor
 from contextlib import AbstractContextManager
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from depal.app.faults.report import faults_report
 from depal.app.faults.runs import FaultsAsked, faults_rows
@@ -26,11 +27,13 @@ class Whole:
         faults: each alone, and pairs.
         light: cuts and a shift in light worlds.
         physics: boxes of a shift with physics.
+        keep: a folder for finished runs; those that it has already are not run again.
     """
 
     faults: FaultsAsked = field(default_factory=FaultsAsked)
     light: Storm = field(default_factory=Storm)
     physics: int = 0
+    keep: Path | None = None
 
 
 def whole_report(asked: Whole, executor: Executor | None, bar: Bar) -> Report:
@@ -43,17 +46,19 @@ def whole_report(asked: Whole, executor: Executor | None, bar: Bar) -> Report:
     if asked.faults.seeds or asked.faults.pairs:
         start = time.perf_counter()
         with bar("Faults") as progress:
-            runs = faults_rows(asked.faults, executor, progress)
+            runs = faults_rows(asked.faults, executor, progress, asked.keep)
         reports.append(faults_report(runs, asked.faults, time.perf_counter() - start))
     if asked.light.cuts or asked.light.shift:
         start = time.perf_counter()
         with bar("Light worlds") as progress:
-            done = storm(asked.light, executor, progress)
+            done = storm(asked.light, executor, progress, asked.keep)
         reports.append(storm_report(done, asked.light, time.perf_counter() - start))
     if asked.physics:
         start = time.perf_counter()
         with bar("A shift") as progress:
-            emptied = shift_with_physics(asked.physics, asked.faults.seed, executor, progress)
+            emptied = shift_with_physics(
+                asked.physics, asked.faults.seed, executor, progress, asked.keep
+            )
         seconds = time.perf_counter() - start
         reports.append(shift_report(emptied, asked.faults.seed, seconds))
     if not reports:

@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass
 from functools import lru_cache
+from pathlib import Path
 
 import numpy as np
 
@@ -14,7 +15,8 @@ from depal.cell.tasks import read_shipped_tasks
 from depal.domain import CellLayout
 from depal.executive.schema import Repository
 from depal.simulation.light import NO_FAULTS, SOAK, Rates
-from depal.studies.sweep import Progress, no_progress, sweep
+from depal.studies.kept import Kept, sweep_kept
+from depal.studies.sweep import Progress, no_progress
 
 BOXES = 10
 """In the runs that are cut."""
@@ -68,9 +70,23 @@ class Stormed:
 
 
 def storm(
-    asked: Storm, executor: Executor | None = None, progress: Progress = no_progress
+    asked: Storm,
+    executor: Executor | None = None,
+    progress: Progress = no_progress,
+    keep: Path | None = None,
 ) -> Stormed:
-    """Runs everything; the same seed gives the same."""
+    """Runs everything; the same seed gives the same.
+
+    Args:
+        asked: what is to be run.
+        executor: where the runs are done; None for this process.
+        progress: told after each run.
+        keep: a folder for finished runs; those that it has already are not run again.
+
+    Raises:
+        SettingError: the folder cannot be used.
+    """
+    kept = Kept.of(keep, _name, LightOutcome)
     jobs: list[tuple[str, LightJob]] = []
     if asked.cuts:
         whole = run_one(LightJob(BOXES, asked.seed))
@@ -81,12 +97,16 @@ def storm(
         control = at_random(count, asked.seed + 1, whole.sim_seconds, naive=True)
         jobs += [("control", job) for job in control]
     jobs += [("shift", job) for job in shift_of(asked.shift, asked.seed)]
-    outcomes = sweep(run_one, [job for _, job in jobs], executor, progress)
+    outcomes = sweep_kept(run_one, [job for _, job in jobs], kept, executor, progress)
     found = {
         name: tuple(o for (kind, _), o in zip(jobs, outcomes, strict=True) if kind == name)
         for name in ("positions", "random", "control", "shift")
     }
     return Stormed(**found)
+
+
+def _name(job: LightJob) -> str:
+    return f"light-{job.boxes}-{job.seed}"
 
 
 def run_one(job: LightJob) -> LightOutcome:

@@ -9,8 +9,8 @@ from depal.app.run.job import run_job
 from depal.app.run.summary import run_report
 from depal.app.run.values import Job
 from depal.app.throughput.asked import Asked
-from depal.app.throughput.kept import Kept
 from depal.app.throughput.row import Row
+from depal.studies.kept import Kept
 from depal.studies.sweep import Progress, no_progress, sweep
 
 
@@ -67,9 +67,9 @@ def throughput(
         InputError: something cannot be used; nothing has run.
     """
     jobs = asked.jobs()
-    kept = Kept(keep)
+    kept = kept_rows(keep)
     done: dict[int, Row | Failure] = {
-        number: row for number, job in enumerate(jobs) if (row := kept.row(job)) is not None
+        number: row for number, job in enumerate(jobs) if (row := kept.get(job)) is not None
     }
     resumed = len(done)
     boxes = [len(job.delivery.boxes) for job in jobs]
@@ -85,8 +85,8 @@ def throughput(
         if isinstance(ran, str):
             done[number] = Failure(job.delivery.id, job.seed, ran)
         else:
-            kept.keep(job, ran)
-            done[number] = Row.of(ran)
+            done[number] = row = Row.of(ran)
+            kept.keep(job, row)
         tell()
 
     tell()
@@ -97,6 +97,15 @@ def throughput(
         tuple(end for end in ends if isinstance(end, Failure)),
         resumed,
     )
+
+
+def kept_rows(folder: Path | None) -> Kept[Job, Row]:
+    """The finished runs of a folder.
+
+    Raises:
+        SettingError: it cannot be made.
+    """
+    return Kept(folder, lambda job: f"{job.delivery.id}-{job.seed}", Row.of, lambda row: row.fields)
 
 
 def run_one(job: Job) -> dict[str, Json] | str:
