@@ -1,12 +1,16 @@
 """Faults that strike whole runs in physics: each ends as its catalogue entry says."""
 
+import math
+
 import pytest
 from tiny_runs import THREE, run
 
 from depal.app.faults.verdicts import broken_in, verdict_of
 from depal.app.run.summary import Outcome
 from depal.cell.departures import Fate
+from depal.domain import PlaceId
 from depal.simulation.faults import CATALOGUE, Fault, FaultPlan, Phase, When
+from depal.simulation.faults.bays import FaultyBays
 from depal.simulation.truth_sight import SightSettings
 
 UNREAD = SightSettings(sigma=0.001, unrecognised=1.0)
@@ -86,3 +90,23 @@ def test_a_run_with_faults_is_the_same_for_the_same_seed() -> None:
     assert one.struck == same.struck
     assert one.events_sha256 == same.events_sha256
     assert list(broken_in(one)) == []
+
+
+@pytest.mark.slow
+def test_a_box_goes_to_another_place_where_somebody_has_left_a_carton(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Nothing is touched, nobody is asked; a cell whose range sensors see nothing runs into it."""
+    plain = run(THREE, sight=SightSettings(sigma=0.001, unrecognised=0.3))
+    outcome = struck("T2")
+    assert (outcome.stored, outcome.questions, list(broken_in(outcome))) == (len(THREE), (), [])
+    was = {plain.stack[gone.box]: gone.place for gone in plain.departures}
+    now = {outcome.stack[gone.box]: gone.place for gone in outcome.departures}
+    assert was != now
+
+    async def blind(_: FaultyBays, place: PlaceId) -> tuple[float, ...]:
+        del place
+        return (math.inf,)
+
+    monkeypatch.setattr(FaultyBays, "profile", blind)
+    assert any(wrong.startswith("I5") for wrong in broken_in(struck("T2")))

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.domain.grasp import Cup
+from depal.domain.names import PlaceId
 from depal.domain.robot import Joints
 from depal.geometry import Matrix3, Pose
 from depal.ports.trajectory import Trajectory
@@ -165,6 +166,15 @@ class Bays(Protocol):
 
     def trolley(self, bay: str) -> str | None:
         """The name of the trolley that stands locked in the bay, None where none does."""
+        ...
+
+    async def profile(self, place: PlaceId) -> tuple[float, ...]:
+        """How far in from its opening a compartment is free, strip by strip [m].
+
+        What the range sensor above the opening reads: the opening is parted into strips of equal
+        width, from the smallest y of the place's frame to the greatest; where nothing stands, the
+        way to the back.
+        """
         ...
 
 

@@ -103,7 +103,7 @@ def build(  # noqa: PLR0913 - each is a choice of its own
         world,
         SimulatedArm(world, time, safety),
         SimulatedGripper(world, time),
-        SimulatedBays(world),
+        SimulatedBays(world, time),
         safety,
         SimulatedPerson(world, time, policy),
         TruthSight(world, time, sight),

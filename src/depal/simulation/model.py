@@ -26,6 +26,12 @@ GAP = 0.0005
 """Boxes are narrower than they say by this, in both horizontal directions: cases that stand face
 to face touch without jamming. Heights are true, so layers do not sink [m]."""
 
+STRAY = (0.20, 0.40, 0.20)
+"""A carton that somebody leaves where it does not belong [m]."""
+
+PARKING = (40.0, 0.0)
+"""Where things are put that people took away: far outside the cell [m]."""
+
 Ints = npt.NDArray[np.int64]
 
 
@@ -48,6 +54,7 @@ class CellModel:
         box_dofs: (n) addresses of their velocities.
         storage_geoms: the panels of each storage.
         floor_geom: the floor.
+        stray_geom: a carton that somebody may leave in a compartment.
     """
 
     mj: mujoco.MjModel
@@ -64,6 +71,7 @@ class CellModel:
     box_dofs: Ints
     storage_geoms: dict[str, Ints]
     floor_geom: int
+    stray_geom: int
 
 
 def build_model(layout: CellLayout, cases: tuple[Case, ...], friction: float = 0.5) -> CellModel:
@@ -98,6 +106,7 @@ def build_model(layout: CellLayout, cases: tuple[Case, ...], friction: float = 0
     add_arm(spec, layout.robot, layout.tool)
     for number, case in enumerate(cases):
         _stiffen(add_box(world, f"box {number}", case, GAP, _mu(friction)))
+    _add_stray(world, _mu(friction))
     for first, second in arm_exclusions():
         spec.add_exclude(bodyname1=first, bodyname2=second)
     for number in range(WELDS if cases else 0):
@@ -134,6 +143,14 @@ def _stiffen(geom: mujoco.MjsGeom) -> None:
     geom.solimp[:3] = (0.99, 0.999, 0.001)
 
 
+def _add_stray(world: mujoco.MjsBody, friction: list[float]) -> None:
+    """Outside and untouchable until somebody leaves it in a compartment."""
+    body = world.add_body(name="stray", mocap=True, pos=(*PARKING, 0.0))
+    geom = add_solid(body, OrientedBox(Pose((0.0, 0.0, 0.0)), STRAY), friction)
+    geom.name = "stray"
+    _stiffen(geom)
+
+
 def _add_weld(spec: mujoco.MjSpec, number: int) -> None:
     weld = spec.add_equality(
         name=f"weld {number}",
@@ -147,6 +164,10 @@ def _add_weld(spec: mujoco.MjSpec, number: int) -> None:
 
 
 def _indexed(model: mujoco.MjModel, layout: CellLayout, cases: tuple[Case, ...]) -> CellModel:
+    # Compiled as something solid: what is not would never be looked at for contacts again.
+    stray = model.geom("stray").id
+    model.geom_contype[stray] = model.geom_conaffinity[stray] = 0
+
     def geoms(prefix: str) -> Ints:
         found = [g for g in range(model.ngeom) if model.geom(g).name.startswith(prefix)]
         return np.array(found, dtype=np.int64)
@@ -169,6 +190,7 @@ def _indexed(model: mujoco.MjModel, layout: CellLayout, cases: tuple[Case, ...])
         box_dofs=_ints([model.jnt_dofadr[joint] for joint in joints]),
         storage_geoms={storage.id: geoms(f"{storage.id} ") for storage in layout.storages},
         floor_geom=model.geom("floor").id,
+        stray_geom=stray,
     )
 
 

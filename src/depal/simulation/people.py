@@ -9,6 +9,7 @@ from depal.domain import BoxId, StorageKind
 from depal.executive.clock import Clock
 from depal.geometry import Pose
 from depal.ports import TAKEN, Question
+from depal.simulation.model import PARKING
 from depal.simulation.referee import ELSEWHERE, FLOOR, PALLET, Referee
 from depal.simulation.witness import Witness
 from depal.simulation.world import World
@@ -18,9 +19,6 @@ Policy = Callable[[Question], str]
 
 PRODUCT = "product/"
 """How questions after the product of a box begin."""
-
-PARKING = (40.0, 0.0)
-"""Where boxes are put that people took away: far outside the cell [m]."""
 
 
 class SimulatedPerson:

@@ -6,7 +6,7 @@ import mujoco
 import numpy as np
 import numpy.typing as npt
 
-from depal.domain import CellLayout, Joints
+from depal.domain import CellLayout, Joints, PlaceId
 from depal.errors import DeviceError
 from depal.geometry import Pose
 from depal.motion.kinematics import Kinematics
@@ -16,9 +16,16 @@ from depal.simulation.cases import Case
 from depal.simulation.contacts import ContactWatch
 from depal.simulation.holds import Broken
 from depal.simulation.losses import LossWatch
-from depal.simulation.model import STEP, build_model
+from depal.simulation.model import PARKING, STEP, STRAY, build_model
 from depal.simulation.pacing import paced
-from depal.simulation.parts import ARM_DAMPING, ARM_INERTIA, ARM_STIFFNESS, BODY, SOLID
+from depal.simulation.parts import (
+    ARM_DAMPING,
+    ARM_INERTIA,
+    ARM_STIFFNESS,
+    BODY,
+    SOLID,
+    quaternion,
+)
 from depal.simulation.servo import Motion, motion_along, stopped
 from depal.simulation.snapshot import Snapshot
 from depal.simulation.suction import TOUCH, SuctionState
@@ -36,6 +43,9 @@ SETTLING = 3000
 
 CONTROL = 4
 """The arm's own controller looks at its sensors every so many steps."""
+
+STRAY_ABOVE = 0.001
+"""A stray carton stands so far above the floor of its compartment [m]."""
 
 G = 9.81
 LOAD_FILTER = 0.005
@@ -57,6 +67,8 @@ class World:
         broken: holds that gave way, in order.
         removed: boxes that people took out of the cell.
         bays: the name of the trolley that stands in each bay, None where none does.
+        stray: the place in which somebody has left a carton, None where nobody has.
+        stray_pose: of that carton.
         steps: how many steps were computed; those in which all stood still were not.
         seen: the reason why the watch of the present motion has stopped it.
     """
@@ -87,6 +99,8 @@ class World:
         self.broken: list[Broken] = []
         self.removed: list[int] = []
         self.bays: dict[str, str | None] = {storage.id: storage.id for storage in layout.storages}
+        self.stray: PlaceId | None = None
+        self.stray_pose: Pose | None = None
         self.steps = 0
         self.seen: str | None = None
         self.start = start
@@ -219,12 +233,35 @@ class World:
         self.refresh()
 
     def show_storage(self, bay: str, *, trolley: str | None) -> None:
-        """A trolley of that name comes to stand in a bay, or none does."""
+        """A trolley of that name comes to stand in a bay, or none does; a stray goes with it."""
+        if self.stray is not None and self.stray.startswith(f"{bay}/"):
+            self.leave_stray(None)
         self.bays[bay] = trolley
         geoms = self.model.storage_geoms[bay]
         there = trolley is not None
         self.model.mj.geom_contype[geoms] = SOLID["contype"] if there else 0
         self.model.mj.geom_conaffinity[geoms] = SOLID["conaffinity"] if there else 0
+        self.refresh()
+
+    def leave_stray(self, place: PlaceId | None, shift: float = 0.0) -> None:
+        """Somebody leaves a carton in a compartment, or takes it out again.
+
+        Args:
+            place: in which; None for none.
+            shift: how far behind the opening its front stands [m].
+        """
+        self.stray = place
+        geom, there = self.model.stray_geom, place is not None
+        self.model.mj.geom_contype[geom] = SOLID["contype"] if there else 0
+        self.model.mj.geom_conaffinity[geom] = SOLID["conaffinity"] if there else 0
+        self.stray_pose = None
+        if place is not None:
+            depth, _, height = STRAY
+            at = Pose((shift + depth / 2, 0.0, height / 2 + STRAY_ABOVE))
+            self.stray_pose = self.layout.places[place].cell_from_place @ at
+        pose = self.stray_pose or Pose((*PARKING, 0.0))
+        self.data.mocap_pos[0] = pose.translation
+        self.data.mocap_quat[0] = quaternion(pose.rotation)
         self.refresh()
 
     def refresh(self) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from depal.app.light.cuts import Cut, Kind, Moment
+from depal.app.light.referee import Count
 from depal.app.light.run import LightJob, LightOutcome, run_light
 from depal.cell.files import shipped_cell
 from depal.cell.tasks import read_shipped_tasks
@@ -110,8 +111,12 @@ def _name(job: LightJob) -> str:
 
 
 def run_one(job: LightJob) -> LightOutcome:
-    """One run, in whatever process."""
-    return run_light(job, *_cell())
+    """One run, in whatever process; one that breaks down is a result, and has lost every box."""
+    try:
+        return run_light(job, *_cell())
+    except Exception as error:  # noqa: BLE001 - whatever it is, it is what we report
+        wrong = f"no end: {type(error).__name__}: {error}"
+        return LightOutcome(job, Count(job.boxes, lost=job.boxes), (wrong,))
 
 
 @lru_cache(maxsize=1)

@@ -1,10 +1,11 @@
 """How a held box gets into a place, and which place that is."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from depal.cell.planning.compartments import Compartments
 from depal.cell.planning.loads import load_of
 from depal.cell.planning.picking import Picking
 from depal.cell.planning.placing import as_pushed_in, turn_into
@@ -28,7 +29,11 @@ SPOTS = 4
 
 
 class Carrying:
-    """Finds places, promises them, and plans the motions there."""
+    """Finds places, promises them, and plans the motions there.
+
+    Attributes:
+        compartments: what stands in places that the cell has not put there.
+    """
 
     def __init__(
         self, work: Workplace, planner: Planner, promises: Promises, picking: Picking
@@ -47,10 +52,17 @@ class Carrying:
         self._picking = picking
         self._lists: dict[BoxId, tuple[PlaceId, ...]] = {}
         self._trolleys = Trolleys(work.ports.bays, work.layout.storages)
+        self.compartments = Compartments(work, promises)
+
+    @property
+    def blocked(self) -> Collection[PlaceId]:
+        """Places with something in them that the cell has not put there."""
+        return self.compartments.blocked.keys()
 
     async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:
         """The first place in a list into which a box can be put, with the motion there."""
         self._look_at_bays()
+        await self.compartments.look_again()
         load = self._load_of(box)
         if load is None:
             return f"box {box} is neither held nor about to be"
@@ -98,18 +110,21 @@ class Carrying:
         return None
 
     def _open(self, places: Sequence[PlaceId]) -> list[PlaceId]:
-        """The places that are there: on a shelf, or on a trolley in its bay."""
-        trolley = self._work.ports.bays.trolley
-        return [
-            place
-            for place in places
-            if self._is_fixed(place) or trolley(place.split("/", maxsplit=1)[0]) is not None
-        ]
+        """The places that are there, and hold nothing that the books do not know."""
+        return [place for place in places if self._why_not(place) is None]
+
+    def _why_not(self, place: PlaceId) -> str | None:
+        """Why nothing can be put into a place, whatever it is."""
+        if place in self.compartments.blocked:
+            return "something stands in it that nobody has put there"
+        bay = place.split("/", maxsplit=1)[0]
+        if self._is_fixed(place) or self._work.ports.bays.trolley(bay) is not None:
+            return None
+        return "no trolley is in its bay"
 
     def _first_place(self, load: Load, places: Sequence[PlaceId]) -> CarryPlan | str:
-        there = self._open(places)
-        reasons = [f"{place}: no trolley is in its bay" for place in places if place not in there]
-        for place in there:
+        reasons = [f"{place}: {why}" for place in places if (why := self._why_not(place))]
+        for place in self._open(places):
             plan = self._into(load, place)
             if not isinstance(plan, str):
                 return plan
@@ -165,7 +180,20 @@ class Carrying:
             self._promises.next_start = plan.end
 
     async def carry(self, box: BoxId, place: PlaceId) -> CarryPlan | str:
-        """The motion of the held box into a place, from where it is."""
+        """The motion of the held box into a place, from where it is.
+
+        Somebody has looked into the place: where something stands in it that is not booked, the
+        box goes to another one of those that it may go to.
+        """
+        plan = await self._carry(box, place)
+        for _ in self._work.layout.places:
+            if isinstance(plan, str) or await self.compartments.as_booked(plan.place):
+                break
+            self._promises.release(box)
+            plan = await self._carry(box, place)
+        return plan
+
+    async def _carry(self, box: BoxId, place: PlaceId) -> CarryPlan | str:
         self._look_at_bays()
         promises = self._promises
         kept, here = promises.carry_of(box), self._planner.here

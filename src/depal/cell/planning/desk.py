@@ -1,6 +1,6 @@
 """The planning desk: plans motions from what the cell believes, ahead of the arm where it can."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -72,6 +72,11 @@ class Picks(Protocol):
 
 class Carries(Protocol):
     """Finds places and plans how boxes get there; see `Carrying`."""
+
+    @property
+    def blocked(self) -> Collection[PlaceId]:
+        """Places with something in them that the cell has not put there."""
+        ...
 
     async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:
         """The first place in a list into which a box can be put, with the motion there."""

@@ -41,6 +41,11 @@ class Promises:
         return solid if self.books.where(box) == place else None
 
     @property
+    def promised(self) -> frozenset[BoxId]:
+        """The boxes of the books that do not stand in their places yet."""
+        return frozenset(self._carries)
+
+    @property
     def promised_places(self) -> frozenset[PlaceId]:
         """The places that boxes are on their way into, or will be."""
         return frozenset(plan.place for plan in self._carries.values())

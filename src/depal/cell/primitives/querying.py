@@ -67,13 +67,16 @@ class Querying:
         return Report(outcome=Outcome.FAILED, reason=reason)
 
     def _to_exchange(self, places: tuple[PlaceId, ...]) -> str | None:
-        """The first trolley of the list that holds something."""
+        """The first trolley of the list that holds something, whoever has put it there."""
         on_their_way = self._desk.promises.promised_places
         for place in places:
             storage = self._work.layout.storage(place)
             if any(promised.startswith(f"{storage.id}/") for promised in on_their_way):
                 continue  # a box is on its way into it
-            filled = any(place_map.boxes for place_map in self._desk.promises.books.of(storage.id))
+            filled = any(
+                place_map.boxes or place_map.place.id in self._desk.carrying.blocked
+                for place_map in self._desk.promises.books.of(storage.id)
+            )
             if storage.kind is StorageKind.TROLLEY and filled:
                 return storage.id
         return None

@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
-from depal.domain import BoxId, Cup, Joints
+from depal.domain import BoxId, Cup, Joints, PlaceId
 from depal.drivers.remote.line import Line
 from depal.errors import DeviceError
 from depal.ports import Frame, Guard, Question, SafetyState, Trajectory, View, Watch
@@ -114,6 +114,10 @@ class RemoteBays:
     def trolley(self, bay: str) -> str | None:
         """The trolley that stands locked in the bay, None where none does."""
         return self.line.state.trolleys.get(bay)
+
+    async def profile(self, place: PlaceId) -> tuple[float, ...]:
+        """How far in a compartment is free, strip by strip [m]."""
+        return await self.line.call(m.Range(place), tuple[float, ...])
 
 
 @dataclass(frozen=True, slots=True)

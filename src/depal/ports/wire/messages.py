@@ -2,12 +2,12 @@
 
 import msgspec
 
-from depal.domain import BoxId, CellLayout, Cup, Delivery
+from depal.domain import BoxId, CellLayout, Cup, Delivery, PlaceId
 from depal.ports.devices import Watch
 from depal.ports.people import Question
 from depal.ports.wire.values import Path
 
-VERSION = 2
+VERSION = 3
 """Of these messages; both sides have the same."""
 
 
@@ -109,6 +109,12 @@ class Read(msgspec.Struct, frozen=True, tag=True):
     """Reads barcodes."""
 
 
+class Range(msgspec.Struct, frozen=True, tag=True):
+    """Reads the range sensor of a compartment; the reply is its profile [m]."""
+
+    place: PlaceId
+
+
 class Take(msgspec.Struct, frozen=True, tag=True):
     """Takes a picture with one camera."""
 
@@ -160,6 +166,7 @@ Call = (
     | Suck
     | Release
     | Read
+    | Range
     | Take
     | Look
     | Do

@@ -8,12 +8,17 @@ from depal.ports import Bays
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
 from depal.simulation.faults.plan import Struck
+from depal.simulation.model import STRAY
 from depal.simulation.referee import Referee
 from depal.simulation.world import World
 
 
 class FaultyBays:
-    """T1: the empty trolley that a box is meant for is pulled out, and put back later. T3."""
+    """Places that are not as the cell believes.
+
+    T1: the empty trolley that a box is meant for is pulled out, and put back later. T2: somebody
+    leaves a carton in the empty place that a box is meant for. T3: a trolley is exchanged.
+    """
 
     def __init__(
         self,
@@ -29,14 +34,23 @@ class FaultyBays:
         self._take = take
         self._places: dict[Gtin, tuple[PlaceId, ...]] = {}
         self._out: dict[str, tuple[str, Struck]] = {}
+        self._left: Struck | None = None
 
     def trolley(self, bay: str) -> str | None:
         """The name of the trolley that stands locked in the bay."""
         self.put_back()
         return self._bays.trolley(bay)
 
+    async def profile(self, place: PlaceId) -> tuple[float, ...]:
+        """How far in a compartment is free."""
+        self.put_back()
+        return await self._bays.profile(place)
+
     def put_back(self) -> None:
-        """Trolleys that were away for long enough stand in their bays again."""
+        """What was away for long enough stands in its bay again, what was left is gone."""
+        if self._left is not None and self._clock.now() >= self._left.until:
+            self._left = None
+            self._world.leave_stray(None)
         for bay, (name, struck) in list(self._out.items()):
             if self._clock.now() >= struck.until:
                 del self._out[bay]
@@ -56,6 +70,20 @@ class FaultyBays:
                 self._take(truth.index)
         self._world.show_storage(bay, trolley=f"{bay}#unasked")
 
+    def _leave(self, box: int, places: Sequence[PlaceId] | None) -> None:
+        """Somebody leaves a carton where the box is to go, where nothing stands (T2)."""
+        if not places or any(truth.where == places[0] for truth in self._referee.boxes()):
+            return
+        struck = self._chances.strikes("T2", Phase.GRASP, box)
+        if struck is not None:
+            self._left = struck
+            self._world.leave_stray(places[0], self._front(places[0]))
+
+    def _front(self, place: PlaceId) -> float:
+        """How far in the carton is left [m]."""
+        most = max(self._world.layout.places[place].depth - STRAY[0], 0.0)
+        return float(self._chances.dice(3).uniform(0.0, most))
+
     def asked_for(self, gtin: Gtin, places: Sequence[PlaceId]) -> None:
         """The store has named the places of a product."""
         self._places[gtin] = tuple(places)
@@ -64,6 +92,7 @@ class FaultyBays:
         """A box comes into the hand: the trolley that it is meant for may be gone."""
         places = self._places.get(self._world.cases[box].gtin)
         self._exchange(box, places)
+        self._leave(box, places)
         storage = self._world.layout.storage(places[0]) if places else None
         if storage is None or storage.kind is not StorageKind.TROLLEY:
             return

@@ -95,6 +95,7 @@ ENTRIES = (
     Entry("M7", "an emergency stop, or the gate is opened", MOVING, math.inf, (_ABORTED,)),
     Entry("O1", "somebody comes near, and then in before the arm", MOVING, 9.0, (_ON,)),
     Entry("T1", "the trolley is absent", (Phase.GRASP,), 60.0, (_ON, _ASIDE)),
+    Entry("T2", "something stands in an empty place", (Phase.GRASP,), math.inf, (_ON, _ASIDE)),
     Entry("T3", "a trolley is exchanged unasked", (Phase.GRASP,), 0.0, (_ON,)),
     Entry("W1", "the store's system is silent", (Phase.QUERY, Phase.TELL), 5.0, (_ON, _ASIDE)),
     Entry("W2", "the store's system is slow", (Phase.QUERY, Phase.TELL), 30.0, (_ON, _ASIDE)),

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from depal.domain import BoxId, Cup, Detection, Joints, Perceived, Recognition
+from depal.domain import BoxId, Cup, Detection, Joints, Perceived, PlaceId, Recognition
 from depal.errors import DeviceError
 from depal.executive.clock import Clock
 from depal.ports import Guard, Trajectory, View, Watch
+from depal.simulation.devices.ranging import profile_of
 from depal.simulation.light.life import Life
 from depal.simulation.light.rates import Rates
 from depal.simulation.light.world import LEAKING, PALLET, LightWorld
@@ -212,6 +213,14 @@ class LightBays:
         """The trolley in a bay."""
         self._seat.life.check()
         return self._seat.world.bays[bay]
+
+    async def profile(self, place: PlaceId) -> tuple[float, ...]:
+        """How far in a compartment is free, strip by strip [m]."""
+        self._seat.life.check()
+        world = self._seat.world
+        world.advance(self._seat.now)
+        there = [box.shape for box in world.boxes if box.where == place]
+        return profile_of(world.layout.places[place], there)
 
 
 class LightReader:

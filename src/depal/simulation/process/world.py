@@ -110,6 +110,7 @@ class Stage:
             m.Suck: self._suck,
             m.Release: self._release,
             m.Read: self._read,
+            m.Range: self._range,
             m.Take: self._take,
             m.Look: self._look,
             m.Do: self._do,
@@ -166,6 +167,11 @@ class Stage:
 
     async def _read(self, _: m.Read) -> tuple[str, ...]:
         return await self.cell.reader.read()
+
+    async def _range(self, call: m.Range) -> tuple[float, ...]:
+        if call.place not in self.cell.world.layout.places:
+            raise DeviceError(f"there is no place {call.place!r}")
+        return await self.cell.bays.profile(call.place)
 
     async def _take(self, call: m.Take) -> Photo:
         cameras = self.cell.cameras
