@@ -16,9 +16,7 @@ from depal.simulation.truth_sight import SightSettings
 UNREAD = SightSettings(sigma=0.001, unrecognised=1.0)
 """Knows no box: all are shown to the reader."""
 
-WHOLE_PHASES = [
-    (name, phase) for name, entry in CATALOGUE.items() for phase in entry.phases if name != "G7"
-]
+WHOLE_PHASES = [(name, phase) for name, entry in CATALOGUE.items() for phase in entry.phases]
 
 
 def struck(fault: str, phase: Phase | None = None, *, seed: int = 0, **when: int) -> Outcome:

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from depal.domain import BoxId, Grasp
+from depal.domain import BoxId
 
 SILENT = 1.0
 """With less vacuum than this a module gives none [Pa]."""
@@ -63,7 +63,3 @@ class Modules:
         if tries < TRIES:
             return frozenset()
         return frozenset(name for name, boxes in self.silent.items() if box in boxes)
-
-    def allow(self, grasp: Grasp) -> bool:
-        """Whether a grasp needs no dead module."""
-        return self.dead.isdisjoint(name for name, _ in grasp.cups)

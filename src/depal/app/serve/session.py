@@ -366,6 +366,15 @@ class Session:
         found = [
             Alarm(q.id, q.text, "Answer the question.", q.asked, q.blocks) for q in self.person.open
         ]
+        found += [
+            Alarm(
+                f"blocked/{place}",
+                f"Something stands in {place} that the cell has not put there.",
+                "Take it out.",
+                since,
+            )
+            for place, since in self.wired.desk.carrying.blocked.items()
+        ]
         if self.stage is Stage.RECOVERED and self._recovery is not None:
             text = f"The controller was started anew; the sensors say: {self._recovery.found.value}"
             found.insert(

@@ -1,6 +1,6 @@
 """How a held box gets into a place, and which place that is."""
 
-from collections.abc import Collection, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -55,9 +55,9 @@ class Carrying:
         self.compartments = Compartments(work, promises)
 
     @property
-    def blocked(self) -> Collection[PlaceId]:
-        """Places with something in them that the cell has not put there."""
-        return self.compartments.blocked.keys()
+    def blocked(self) -> Mapping[PlaceId, float]:
+        """Places with something in them that the cell has not put there, and since when [s]."""
+        return self.compartments.blocked
 
     async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:
         """The first place in a list into which a box can be put, with the motion there."""

@@ -45,8 +45,8 @@ class Compartments:
     """Reads the range sensors before something is put into a place.
 
     Attributes:
-        blocked: places with something in them that the cell has not put there, and how far in
-            it stands [m]; as it was when somebody looked last.
+        blocked: places with something in them that the cell has not put there, and since when
+            that is known [s]; as it was at the last look into each.
     """
 
     def __init__(self, work: Workplace, promises: Promises) -> None:
@@ -64,7 +64,7 @@ class Compartments:
         if found is None:
             self.blocked.pop(place, None)
         else:
-            self.blocked[place] = found
+            self.blocked.setdefault(place, self._work.now)
         if was != (found is not None):
             self._tell(place)
         return found is None

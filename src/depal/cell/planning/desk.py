@@ -1,6 +1,6 @@
 """The planning desk: plans motions from what the cell believes, ahead of the arm where it can."""
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Protocol
 
@@ -74,8 +74,8 @@ class Carries(Protocol):
     """Finds places and plans how boxes get there; see `Carrying`."""
 
     @property
-    def blocked(self) -> Collection[PlaceId]:
-        """Places with something in them that the cell has not put there."""
+    def blocked(self) -> Mapping[PlaceId, float]:
+        """Places with something in them that the cell has not put there, and since when [s]."""
         ...
 
     async def find_place(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | str:

@@ -103,7 +103,7 @@ class Picking:
         mass = expected_mass(box, work.delivery)
         toward = np.array(box.shape.pose.rotation).T @ np.array(front)
         axis = int(np.argmax(np.abs(toward[:2])))
-        dead = work.modules.dead | work.modules.suspects(box.id, work.tries.get(box.id, 0))
+        dead = self._silent(box.id)
         key = (box.shape.size, mass, axis, bool(toward[axis] > 0), dead)
         if key not in self._offered:
             ways = grasps(box.shape, mass, work.layout.tool, front)
@@ -112,6 +112,11 @@ class Picking:
                 ways = tuple(dict.fromkeys((*live, *ways)))
             self._offered[key] = ways
         return self._offered[key]
+
+    def _silent(self, box: BoxId) -> frozenset[str]:
+        """The modules that do not work, or do not on this box."""
+        work = self._work
+        return work.modules.dead | work.modules.suspects(box, work.tries.get(box, 0))
 
     def masses(self, box: Perceived) -> tuple[float | None, float | None]:
         """The least and the most that a box can weigh, by the note [kg]."""
@@ -143,7 +148,7 @@ class Picking:
         if seen is None:
             return f"box {box} is not seen on the pallet"
         kept = promises.pick_of(box)
-        if kept is not None and not self._work.modules.allow(kept.grasp):
+        if kept is not None and not self._silent(box).isdisjoint(m for m, _ in kept.grasp.cups):
             promises.forget_pick(box)
             kept = None
         if kept is not None and self._is_good(kept, seen):

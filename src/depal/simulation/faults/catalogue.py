@@ -86,7 +86,7 @@ ENTRIES = (
     Entry("G1", "the vacuum is not reached", (Phase.GRASP,), 0.0, (_ON,)),
     Entry("G3", "the box is dropped in transit", (Phase.CARRY,), 0.0, (_HELD,)),
     Entry("G4", "a neighbour sticks to the box", (Phase.GRASP,), 0.0, (_ON, _HELD)),
-    Entry("G7", "one of two suction modules is dead", (Phase.GRASP,), math.inf, (_ON,)),
+    Entry("G7", "one of two suction modules is dead", (Phase.GRASP,), math.inf, (_ON, _HELD)),
     Entry("M2", "a box falls off the pile", (Phase.REACH,), 0.0, (_HELD,)),
     Entry("M3", "nothing reaches a box", (Phase.PLAN,), 60.0, (_ON, _HELD)),
     Entry("M4", "the planner gives up", (Phase.PLAN,), 0.0, (_ON,)),

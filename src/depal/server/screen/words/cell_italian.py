@@ -28,6 +28,11 @@ CELL_ITALIAN: Final[tuple[tuple[str, str], ...]] = (
         "Run {run} cannot be taken up: the world that it ran in has ended.",
         "Il lavoro {run} non si può riprendere: il suo mondo è finito.",
     ),
+    (
+        "Something stands in {place} that the cell has not put there.",
+        "In {place} c'è qualcosa che la cella non ci ha messo.",
+    ),
+    ("Take it out.", "Toglilo."),
     # Questions
     (
         "The arm cannot take box {box}: {reason}. Please take it off the pallet.",
