@@ -17,7 +17,7 @@ from depal.cell.ledger.reconciling import Found, Sensed, reconcile
 from depal.cell.planning.desk import Desk
 from depal.cell.primitives.restarting import OVER
 from depal.cell.stock import movement_id
-from depal.cell.workplace import FIRST, Held, Workplace
+from depal.cell.workplace import FIRST, PALLET, Held, Workplace
 from depal.domain import BoxId
 from depal.errors import DeviceError
 from depal.executive.engine import Call
@@ -68,13 +68,18 @@ class Recovery:
         return self.found
 
     def _takes_over(self, hand: Hand) -> None:
-        self._desk.promises.gone(hand.box)  # it hangs: its spot is free
         held = Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
-        if self._work.departures.has_left(hand.box):
-            self._work.held = held
-            self._work.steps(Phase.HELD)
-        else:
+        if not self._work.departures.has_left(hand.box):
             self._work.lifted(held)  # the controller ended between the lift and its report
+            return
+        self._work.held = held
+        # Until the arm is clear it is in the place: whoever takes over next must know which.
+        self._work.begins(hand)
+
+    def _hangs(self, hand: Hand) -> None:
+        """The arm is clear, and the box hangs on it: its spot is free."""
+        self._desk.promises.gone(hand.box)
+        self._work.steps(Phase.HELD)
 
     async def go_on(self) -> None:
         """A person has said start: what is open is asked, the arm gets clear, the facts are set."""
@@ -130,6 +135,8 @@ class Recovery:
             if lost is not None:
                 self.found = Found.DROPPED
                 await work.ports.gripper.release()
+            elif hand is not None:
+                self._hangs(hand)
         else:
             await get_clear(work, self._desk)
         with suppress(DeviceError):  # what was believed before stands until a picture comes
@@ -225,4 +232,7 @@ class Recovery:
             waits = root.schema.name == STORE and box is not None
             if waits and box is not None and not work.departures.has_left(box):
                 work.runtime.withdraw(number, "the cell was started anew")
-                work.gone(box).set()
+        # A restart before may have withdrawn it already, and have ended before anybody heard.
+        chosen = work.runtime.engine.state.facts.get(f"{PALLET}.next")
+        if chosen and not work.departures.has_left(BoxId(str(chosen))):
+            work.gone(BoxId(str(chosen))).set()

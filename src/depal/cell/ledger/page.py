@@ -130,7 +130,11 @@ def _in_hand(hand: Hand | None, box: BoxId) -> bool:
 
 
 def restore(page: Page, work: Workplace, promises: Promises) -> None:
-    """Brings a new workplace to where a page was written; what is in hand is not touched."""
+    """Brings a new workplace to where a page was written.
+
+    The step that a box was in stays written until somebody knows how it has ended.
+    """
+    work.hand = page.hand
     departures = Departures()
     for left in page.left:
         departures.leaves(left.box, left.at)
