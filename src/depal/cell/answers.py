@@ -123,7 +123,8 @@ class Answers:
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
         work, runtime = self._work, self._work.runtime
         taken = runtime.engine.state.facts.get(f"{box}.taken")
-        aside = schema == STORE and bool(taken or box in work.homeless)
+        alone = box not in work.crowded  # two would come into one slot
+        aside = schema == STORE and alone and bool(taken or box in work.homeless)
         if aside:
             # First of all its successor: the arm goes from the one to the other.
             work.aside_reasons[box] = fault
@@ -157,5 +158,6 @@ class Answers:
         await work.questions.ask(question)
         await work.ports.gripper.release()
         reason = work.aside_reasons.get(box, fault)
+        work.crowded.discard(box)
         work.ended(box, Fate.BY_PERSON, reason=reason)
         work.runtime.change([(f"{box}.taken", False)], "person")

@@ -64,6 +64,26 @@ def test_several_random_cuts_lose_and_double_nothing(
     holds(ran(4, *at, seed=seed))
 
 
+@pytest.mark.parametrize(
+    ("seed", "rates", "cuts"),
+    [
+        # A page that is written before the recovery begins tells of the box in the hand.
+        (637, NO_FAULTS, ((27.8975, True), (2.9925, True))),
+        # What a first restart has withdrawn is not waited for after a second one.
+        (748, SOAK, ((25.8921, False), (10.6449, True), (9.4927, True))),
+        # A restart that ends before the arm has left a place leaves word of which.
+        (1213, SOAK, ((16.9361, False), (27.117, True), (2.2008, False))),
+        # Two boxes that weigh like one: where the code tells, a person takes out what hangs there.
+        (996, SOAK, ((17.4993, False), (12.4955, False))),
+    ],
+)
+def test_what_storms_have_found_stays_mended(
+    seed: int, rates: Rates, cuts: tuple[tuple[float, bool], ...]
+) -> None:
+    """Runs of ten boxes in which something was lost, doubled or waited for without end."""
+    holds(ran(10, *(Cut(Kind.TIME, at, power=power) for at, power in cuts), seed=seed, rates=rates))
+
+
 def test_the_control_that_runs_everything_again_is_found_out() -> None:
     """At least once: the referee sees what exactly one placement prevents."""
     outcomes = [ran(2, Cut(Kind.LEDGER, write, Moment.AFTER), naive=True) for write in range(2, 8)]

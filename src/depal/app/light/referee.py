@@ -109,9 +109,9 @@ class Referee:
         self._progress()
 
     def _hand(self, work: Workplace) -> None:
-        """I2: after a lift that was weighed one box hangs there."""
+        """I2: where the product is known, which tells what one box weighs, one hangs there."""
         held = self._cell.world.held
-        if work.held is not None and len(held) > 1:
+        if work.held is not None and len(held) > 1 and work.product_of(work.held.box):
             self._breach(f"I2: {len(held)} boxes in the hand: {_names(held)}")
 
     def _places(self) -> None:
@@ -155,7 +155,7 @@ class Referee:
                     return f"booked as {departure.gtin}, it is {box.gtin}"
             case Fate.BY_PERSON if box.where != REMOVED:
                 return f"it is at {box.where}"
-            case Fate.LOST if box.where == HAND:
+            case Fate.LOST if box.where == HAND and len(self._cell.world.held) == 1:
                 return "it is in the hand"
             case _:
                 pass

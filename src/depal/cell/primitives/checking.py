@@ -6,7 +6,7 @@ from dataclasses import replace
 from depal.cell.choosing import GAVE_UP
 from depal.cell.guards import Guards
 from depal.cell.hand import Phase
-from depal.cell.identity import told_size, why_not
+from depal.cell.identity import may_be_two, told_size, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
 from depal.cell.primitives.falling import report_loss
@@ -112,6 +112,9 @@ class Checking:
         unsized = work.pile.remembered or box in work.pile.unsized
         reasons = why_not(product, held.size, mass, unsized=unsized)
         if reasons:
+            if may_be_two((product,), work.delivery, mass):
+                work.crowded.add(box)
+                reasons = (*reasons, "two boxes weigh so together")
             return self._refuse(box, "; ".join(reasons))
         work.pile.identify(box, gtin)
         too_many = work.surplus(gtin)

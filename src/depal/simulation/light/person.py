@@ -132,6 +132,10 @@ class LightPerson:
         elif about == ARM and answer == TAKEN:
             for index in tuple(world.held):
                 world.take_away(index, now)
+        elif box is not None and answer == TAKEN and box.where == HAND:
+            self._deeds.meant[BoxId(about)] = box.index
+            for index in sorted(world.held, key=lambda each: each == box.index):
+                world.take_away(index, now)  # whatever hangs there, the box itself last
         elif box is not None and (answer == TAKEN or box.where == FLOOR):
             self._deeds.meant[BoxId(about)] = box.index
             world.take_away(box.index, now)
