@@ -169,6 +169,71 @@ def throughput() -> Iterator[Line]:
         yield Line(f"{runs}: planning a motion, {name}", f"<= {target:g} ms", said, spent <= target)
 
 
+def with_camera() -> Iterator[Line]:
+    """The same deliveries seen by the cameras; finished runs are kept."""
+    kept = str(KEPT / f"camera-{state()}")
+    words = ("--perception", "camera", "--workers", "1", "--keep", kept)
+    report, _ = depal("study", "throughput", *words)
+    total: dict[str, Any] = report["summary"]  # type: ignore[assignment]
+    runs = f"{total['runs']} real deliveries with the camera"
+    share = total["stored_share"] or 0.0
+    stored = f"{100 * share:.1f} % ({total['stored']} of {total['boxes']})"
+    yield Line(f"{runs}: boxes stored", ">= 97 %", stored, share >= 0.97)  # noqa: PLR2004
+    counts = [total[name] for name in ("lost", "collisions", "disagreements", "placed_twice")]
+    what = f"{runs}: lost; collisions; not where the books say; placed twice"
+    yield Line(what, "0; 0; 0; 0", "; ".join(map(str, counts)), not any(counts))
+
+
+def faults() -> Iterator[Line]:
+    """`depal study faults`: each fault 100 times, 2,000 pairs; finished runs are kept."""
+    kept = str(KEPT / f"faults-{state()}")
+    words = ("--seeds", "100", "--pairs", "2000", "--workers", "2", "--keep", kept)
+    report, _ = depal("study", "faults", *words)
+    rows: list[dict[str, Any]] = report["rows"]  # type: ignore[assignment]
+    each = f"{len(rows)} faults, 100 runs each"
+    for what, name in (("ends as named", "ended"), ("invariants hold", "invariants")):
+        worst = min(rows, key=lambda row: row[name])
+        said = f"{100 * worst[name]:.0f} % ({worst['fault']})"
+        yield Line(f"{each}: {what}, the worst", "100 %", said, worst[name] == 1.0)
+    pairs: dict[str, Any] = report["pairs"]  # type: ignore[assignment]
+    broken = len(pairs["broken"])
+    yield Line(f"{pairs['n']} pairs: an invariant broken", "0", str(broken), not broken)
+    spent: float = report["recovery"]["p95"]  # type: ignore[index]
+    what = "recovery, the software's part, 95th percentile"
+    yield Line(what, "<= 5 s", f"{spent:.2g} s", spent <= 5)  # noqa: PLR2004
+
+
+def storm() -> Iterator[Line]:
+    """`depal study faults --cuts --shift`, in light worlds, and a shift with physics."""
+    kept = str(KEPT / f"storm-{state()}")
+    many = ("--cuts", "10000", "--shift", "100000")
+    words = ("--seeds", "0", "--workers", "2", "--keep", kept)
+    report, _ = depal("study", "faults", *words, *many)
+    cuts: dict[str, Any] = report["cuts"]  # type: ignore[assignment]
+    for name, what in (
+        ("positions", "a cut at every write of ten boxes"),
+        ("random", "cuts at random moments"),
+    ):
+        yield _storm_line(f"{cuts[name]['cuts']} cuts: {what}", cuts[name])
+    control = cuts["control"]
+    bad = control["lost"] + control["doubled"] + control["misplaced"]
+    yield Line("the control, which runs begun steps again: boxes wrong", "> 0", str(bad), bad > 0)
+    shift: dict[str, Any] = report["shift"]  # type: ignore[assignment]
+    yield _storm_line(f"a shift of {shift['boxes']} boxes in light worlds", shift)
+    report, _ = depal("study", "faults", *words, "--shift", "1000", "--world", "physics")
+    done: dict[str, Any] = report["shift_physics"]  # type: ignore[assignment]
+    said = f"{done['lost']}; {len(done['wrong'])}"
+    what = f"a shift of {done['boxes']} boxes with physics: lost; otherwise wrong"
+    yield Line(what, "0; 0", said, said == "0; 0")
+
+
+def _storm_line(what: str, found: dict[str, Any]) -> Line:
+    counts = [found[name] for name in ("lost", "doubled", "misplaced")]
+    said = "; ".join(map(str, counts))
+    good = not any(counts) and not found["wrong"]
+    return Line(f"{what}: lost; doubled; misplaced", "0; 0; 0", said, good)
+
+
 def crashes() -> Iterator[Line]:
     """Crashes at random events of runs with failing primitives, and after every single one."""
     tests = "tests/executive/test_runtime.py"
@@ -437,6 +502,9 @@ MEASUREMENTS: tuple[Callable[[], Iterator[Line]], ...] = (
     perception_normal,
     perception_hard,
     throughput,
+    with_camera,
+    faults,
+    storm,
     api,
     kills,
     served,

@@ -115,6 +115,66 @@ def test_the_throughput_of_the_shipped_deliveries_is_in_the_table(
     assert any(line.measured == "arm motion 90.0 %, looking 10.0 %" for line in lines)
 
 
+@pytest.mark.parametrize(
+    ("ended", "broken", "p95", "missed"),
+    [
+        (1.0, 0, 0.1, set()),
+        (0.97, 0, 0.1, {"2 faults, 100 runs each: ends as named, the worst"}),
+        (1.0, 1, 0.1, {"2000 pairs: an invariant broken"}),
+        (1.0, 0, 5.1, {"recovery, the software's part, 95th percentile"}),
+    ],
+)
+def test_the_faults_are_in_the_table_with_the_worst_of_them(
+    script: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    ended: float,
+    broken: int,
+    p95: float,
+    missed: set[str],
+) -> None:
+    """One line for all faults, one for the pairs, one for the recovery."""
+    report = {
+        "rows": [
+            {"fault": "G1", "ended": 1.0, "invariants": 1.0},
+            {"fault": "G3", "ended": ended, "invariants": 1.0},
+        ],
+        "pairs": {"n": 2000, "broken": [{}] * broken},
+        "recovery": {"p95": p95},
+    }
+    monkeypatch.setattr(script, "depal", lambda *_: (report, 1.0))
+    assert {line.what for line in script.faults() if not line.met} == missed
+
+
+@pytest.mark.parametrize(
+    ("doubled", "control", "missed"),
+    [
+        (0, 3, set()),
+        (0, 0, {"the control, which runs begun steps again: boxes wrong"}),
+        (1, 3, {"12 cuts: cuts at random moments: lost; doubled; misplaced"}),
+    ],
+)
+def test_the_storm_is_in_the_table(
+    script: ModuleType,
+    monkeypatch: pytest.MonkeyPatch,
+    doubled: int,
+    control: int,
+    missed: set[str],
+) -> None:
+    """A control in which nothing goes wrong shows nothing."""
+    none = {"cuts": 12, "boxes": 10, "lost": 0, "doubled": 0, "misplaced": 0, "wrong": []}
+    report = {
+        "cuts": {
+            "positions": none,
+            "random": {**none, "doubled": doubled},
+            "control": {**none, "lost": control},
+        },
+        "shift": none,
+        "shift_physics": {"boxes": 1000, "lost": 0, "wrong": []},
+    }
+    monkeypatch.setattr(script, "depal", lambda *_: (report, 1.0))
+    assert {line.what for line in script.storm() if not line.met} == missed
+
+
 def test_the_checks_of_stability_are_in_the_table(
     script: ModuleType, monkeypatch: pytest.MonkeyPatch
 ) -> None:
