@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from depal.app.serve.alarms import RESTART
 from depal.app.serve.session import Session, Stage
 from depal.cell.halting import ABORTED, STOPPED
 from depal.server.cellstate import Alarm, Mode
@@ -9,9 +10,6 @@ from depal.server.cellstate import Alarm, Mode
 EXCHANGE = "/exchange/"
 """What the names of questions after another trolley have in them."""
 
-
-RESTART = "restart"
-"""The name of the alarm that says what a restart has found."""
 
 STANDING = {
     Stage.DONE: (Mode.COMPLETE, "The pallet is empty."),

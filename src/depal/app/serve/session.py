@@ -1,6 +1,5 @@
 """One run of a served cell: wired, begun or taken up again, told about, and closed."""
 
-import asyncio
 import json
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -11,11 +10,12 @@ from pathlib import Path
 from depal.app.run.assembly import Assembly, Wiring, assemble
 from depal.app.run.inputs import refuse_what_cannot_work
 from depal.app.run.record import CHOICES, said
+from depal.app.serve.asides import Asides
+from depal.app.serve.endings import Endings
 from depal.app.serve.outside import Records, World
 from depal.app.serve.person import ScreenPerson
 from depal.app.serve.result import result_of
 from depal.app.serve.seeing import Seen
-from depal.cell.departures import Departure, Fate
 from depal.cell.ledger import Found, Ledger, page_of, restore
 from depal.cell.recovery import Recovery
 from depal.cell.reporting import ChoiceNote
@@ -28,9 +28,9 @@ from depal.executive.clock import Clock
 from depal.executive.journal import SqliteJournal
 from depal.executive.record import open_record
 from depal.executive.restart import resumed
-from depal.ports import TAKEN, Question, StoreSystem
+from depal.ports import StoreSystem
 from depal.server import cell as server
-from depal.server.cellstate import Alarm, QuestionState
+from depal.server.cellstate import QuestionState
 
 LEDGER = "ledger.db"
 
@@ -70,7 +70,19 @@ class Surroundings:
 
 
 class Session:
-    """A run, on the cell's thread."""
+    """A run, on the cell's thread.
+
+    Attributes:
+        order: what is to be done.
+        folder: of its record.
+        person: who is asked.
+        wired: the controller and what it works with.
+        journal: of its events.
+        note: on the last choice.
+        stage: how far it is.
+        began: when [s].
+        reason: why nothing can be written; empty where it can.
+    """
 
     def __init__(
         self,
@@ -120,11 +132,10 @@ class Session:
         )
         self.wired: Assembly = assemble(wiring, self._ports())
         self._recovery: Recovery | None = None
-        self._asides: set[asyncio.Task[None]] = set()
-        self._told: set[BoxId] = set()
-        self._settled: set[str] = set()
+        self._asides = Asides(self.wired, self.person, changed)
+        self._endings = Endings(around.records)
         self._unwritten: list[str] = []
-        self._reason = ""
+        self.reason = ""
         self._bind()
         if old:
             self._take_up()
@@ -162,13 +173,7 @@ class Session:
         work, desk = self.wired.work, self.wired.desk
         restore(page, work, desk.promises)
         self._around.seen.recall(page)
-        # What still stands where it was set aside is asked about anew.
-        kept = {each.standing.id for each in page.kept}
-        self._told = {
-            departure.box
-            for departure in page.departures
-            if departure.fate is not Fate.SET_ASIDE or departure.box not in kept
-        }
+        self._asides.recall(page)
         known = {wish.key for wish in work.wishes}
         for key, request in self.order.requests:
             if key not in known:
@@ -188,7 +193,7 @@ class Session:
         if self.stage is Stage.WORKING:
             self.wired.controller.begin()
         await self.wired.controller.finish()
-        await self._noted(lambda: self._settle_requests(over=True))
+        await self._noted(lambda: self._settle(over=True))
         result = result_of(self.wired, self.began)
         records, at = self._around.records, self._around.clock.now()
         await self._noted(lambda: records.run_ended(self.order.run, "done", at, result))
@@ -244,13 +249,12 @@ class Session:
 
     async def lay_aside(self, reason: str) -> None:
         """Nothing can be written: it is closed as it stands, to be taken up again."""
-        self._reason, self.stage = reason, Stage.UNWRITTEN
+        self.reason, self.stage = reason, Stage.UNWRITTEN
         await self.close()
 
     async def close(self) -> None:
         """Breaks off, as the end of the controller does; the record can be taken up again."""
-        for task in self._asides:
-            task.cancel()
+        self._asides.close()
         self.wired.controller.books.close()
         await self.wired.controller.runtime.close()
         self.journal.close()
@@ -304,6 +308,10 @@ class Session:
             self._unwritten.clear()
         self._changed()
 
+    def _settle(self, *, over: bool = False) -> None:
+        work = self.wired.work
+        self._endings.settle(work.wishes, work.departures, work.now, over=over)
+
     def _heard(self, _: int, events: Sequence[ev.Event]) -> None:
         for event in events:
             facts = event.facts if isinstance(event, ev.Ended) else ()
@@ -312,83 +320,10 @@ class Session:
                     box = BoxId(key.removesuffix(TAKEN_FACT))
                     self._around.world.witness_lifted(box)
         with suppress(DeviceError):  # the next step tries again
-            self._settle_requests()
-        self._ask_for_what_is_aside()
+            self._settle()
+        self._asides.ask(self.wired.work.departures.sequence)
         self._stop_if_empty()
         self._changed()
-
-    def _settle_requests(self, *, over: bool = False) -> None:
-        """A request has ended once the box that serves it has found its end."""
-        work, records = self.wired.work, self._around.records
-        for wish in work.wishes:
-            if not wish.key or wish.key in self._settled or wish.cancelled:
-                continue
-            if wish.served is not None and wish.box is not None:
-                if over or work.departures.has_ended(wish.box):
-                    records.request_ended(
-                        wish.key, served=True, at=wish.served, reason=f"by {wish.box}"
-                    )
-                    self._settled.add(wish.key)
-            elif over and wish.request.box is not None:
-                reason = "its pallet is empty, and the box was not on it"
-                records.request_ended(wish.key, served=False, at=work.now, reason=reason)
-                self._settled.add(wish.key)
-
-    def _ask_for_what_is_aside(self) -> None:
-        """What was set aside moves on when a person has taken it."""
-        for departure in self.wired.work.departures.sequence:
-            if departure.fate is Fate.SET_ASIDE and departure.box not in self._told:
-                self._told.add(departure.box)
-                task = asyncio.get_running_loop().create_task(self._cleared(departure))
-                self._asides.add(task)
-                task.add_done_callback(self._asides.discard)
-
-    async def _cleared(self, departure: Departure) -> None:
-        place = departure.place
-        solid = None if place is None else self.wired.desk.promises.standing(departure.box, place)
-        question = Question(
-            f"aside/{departure.box}",
-            f"Box {departure.box} was set aside: {departure.reason}. Please take it away.",
-            (TAKEN,),
-            str(departure.box),
-            None if solid is None else solid.centre,
-            departure.gtin,
-        )
-        await self.person.ask(question, blocks=False)
-        self.wired.desk.promises.gone(departure.box)
-        self.wired.work.keep()
-        self._changed()
-
-    # What is told
-
-    def alarms(self) -> tuple[Alarm, ...]:
-        """What needs an action, the most urgent first."""
-        found = [
-            Alarm(q.id, q.text, "Answer the question.", q.asked, q.blocks) for q in self.person.open
-        ]
-        found += [
-            Alarm(
-                f"blocked/{place}",
-                f"Something stands in {place} that the cell has not put there.",
-                "Take it out.",
-                since,
-            )
-            for place, since in self.wired.desk.carrying.blocked.items()
-        ]
-        if self.stage is Stage.RECOVERED and self._recovery is not None:
-            text = f"The controller was started anew; the sensors say: {self._recovery.found.value}"
-            found.insert(
-                0, Alarm("restart", text, "Look at the cell, then press Start.", self.began)
-            )
-        safety = self.wired.controller.safety
-        if not safety.judgement.good and self.stage is Stage.WORKING:
-            text = f"Nothing moves: {safety.judgement.reason}."
-            todo = "See to the safety controller."
-            found.append(Alarm("safety", text, todo, safety.since, urgent=True))
-        if self.stage is Stage.UNWRITTEN:
-            todo = "Make room, then press Start."
-            found = [Alarm("unwritten", self._reason, todo, self._around.clock.now())]
-        return tuple(sorted(found, key=lambda alarm: not alarm.urgent))
 
 
 def cell_settings(settings: server.Settings) -> Settings:

@@ -7,6 +7,7 @@ from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 
+from depal.app.serve.alarms import alarms_of
 from depal.app.serve.early import Early
 from depal.app.serve.empty import begun_statement, empty_statement
 from depal.app.serve.means import Means
@@ -296,7 +297,7 @@ class Shift:
     def _stated(self) -> CellState:
         session, trouble = self._session, self._trouble
         alarms = (() if trouble is None else (trouble,)) + (
-            () if session is None else session.alarms()
+            () if session is None else alarms_of(session, self._clock.now())
         )
         mode, reason = mode_of(session, alarms)
         if session is None:
