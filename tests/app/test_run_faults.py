@@ -8,6 +8,7 @@ from tiny_runs import THREE, run
 from depal.app.faults.verdicts import broken_in, verdict_of
 from depal.app.run.summary import Outcome
 from depal.cell.departures import Fate
+from depal.cell.planning.clearing import Clearing
 from depal.domain import PlaceId
 from depal.simulation.faults import CATALOGUE, Fault, FaultPlan, Phase, When
 from depal.simulation.faults.bays import FaultyBays
@@ -108,3 +109,20 @@ def test_a_box_goes_to_another_place_where_somebody_has_left_a_carton(
 
     monkeypatch.setattr(FaultyBays, "profile", blind)
     assert any(wrong.startswith("I5") for wrong in broken_in(struck("T2")))
+
+
+@pytest.mark.slow
+def test_an_arm_that_cannot_draw_back_is_not_waited_for_without_end(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Whatever goes wrong: a person is asked again, five times at the most for one stop."""
+
+    def broken(_: Clearing) -> None:
+        raise RuntimeError("no way is known")
+
+    monkeypatch.setattr(Clearing, "ways_out", broken)
+    outcome = run(THREE, faults=FaultPlan((Fault("M5", When(phase=Phase.REACH)),)))
+    stops = [asked.question.text for asked in outcome.questions if asked.question.about == "arm"]
+    assert 1 < len(stops) <= 5
+    assert all("RuntimeError: no way is known" in text for text in stops[1:])
+    assert list(broken_in(outcome)) == []

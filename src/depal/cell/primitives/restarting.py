@@ -74,10 +74,13 @@ class Restarting:
         del context
         try:
             told = await self._get_clear()
-        except DepalError as again:
+        except Exception as again:  # noqa: BLE001 - whatever it is, nobody may wait for ever
             if self._row >= OFTEN:
                 return self._given_up()
-            return Report((*ANEW, (STOPPED, str(again))))
+            why = (
+                str(again) if isinstance(again, DepalError) else f"{type(again).__name__}: {again}"
+            )
+            return Report((*ANEW, (STOPPED, why)))
         self._end(free=True)
         return Report((*OVER, *told))
 
