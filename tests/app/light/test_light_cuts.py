@@ -75,6 +75,9 @@ def test_several_random_cuts_lose_and_double_nothing(
         (1213, SOAK, ((16.9361, False), (27.117, True), (2.2008, False))),
         # Two boxes that weigh like one: where the code tells, a person takes out what hangs there.
         (996, SOAK, ((17.4993, False), (12.4955, False))),
+        (2592, SOAK, ((3.9938, False), (28.7338, True), (21.5746, True))),
+        # A worker who is asked where a box is that hangs where it could stand says that it hangs.
+        (2464, SOAK, ((8.7272, False), (12.593, False))),
     ],
 )
 def test_what_storms_have_found_stays_mended(

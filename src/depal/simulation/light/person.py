@@ -97,7 +97,9 @@ class LightPerson:
         if box.where == HAND:
             if self._seat.world.hangs(box.index):
                 return hangs
-            return pallet if self._seat.world.stands_over(box.index) == PALLET else stands[0]
+            if self._seat.world.stands_over(box.index) == PALLET:
+                return pallet
+            return stands[0] if stands else hangs  # the cups hold it all the same
         if box.where == PALLET:
             return pallet
         return taken if box.where in {FLOOR, REMOVED} or not stands else stands[0]
@@ -130,12 +132,10 @@ class LightPerson:
                 self._deeds.trolleys += 1
                 world.bays[about] = f"{about}#{self._deeds.trolleys + 1}"
         elif about == ARM and answer == TAKEN:
-            for index in tuple(world.held):
-                world.take_away(index, now)
+            world.empty_hand(now)
         elif box is not None and answer == TAKEN and box.where == HAND:
             self._deeds.meant[BoxId(about)] = box.index
-            for index in sorted(world.held, key=lambda each: each == box.index):
-                world.take_away(index, now)  # whatever hangs there, the box itself last
+            world.empty_hand(now)  # whatever hangs there
         elif box is not None and (answer == TAKEN or box.where == FLOOR):
             self._deeds.meant[BoxId(about)] = box.index
             world.take_away(box.index, now)

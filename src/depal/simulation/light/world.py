@@ -288,6 +288,14 @@ class LightWorld:
         self.boxes[index].where = REMOVED
         self._tell(now)
 
+    def empty_hand(self, now: float) -> None:
+        """A person has taken all that hangs on the arm out of the cell."""
+        self.advance(now)
+        for index in self.held:
+            self.boxes[index].where = REMOVED
+        self.held = {}
+        self._tell(now)
+
     def take_trolley(self, bay: str, now: float) -> None:
         """A trolley is pulled out of its bay, with what stands on it."""
         for box in self.boxes:
