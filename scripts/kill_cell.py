@@ -33,10 +33,10 @@ from depal.server.records.documents import document_of
 
 NAME, PASSWORD = "anna", "ten letters at least"
 
-PER_RUN = 5
-"""So often a run is killed."""
+PER_RUN = 10
+"""So often a run is killed: about as often as its moments fit into it."""
 
-PATIENCE = 300.0
+PATIENCE = 600.0
 """A run that is not over by then hangs [s]."""
 
 
@@ -206,6 +206,8 @@ def main() -> int:
             before = tally.kills
             one_run(asked.delivery, count, draw, asked.pace, asked.perception, tally)
             progress.advance(bar, tally.kills - before)
+            if not console.is_terminal:
+                console.print(f"{tally.kills} of {asked.kills}, {len(tally.wrong)} wrong")
             if tally.kills == before:
                 break
     console.print(
