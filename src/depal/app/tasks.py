@@ -11,7 +11,7 @@ from rich.text import Text
 
 from depal.app.files import Json, write_text
 from depal.app.reports.report import Report
-from depal.cell.bounds import QUANTITIES
+from depal.cell.quantities import QUANTITIES
 from depal.errors import Problem, SettingError, TaskError, did_you_mean
 from depal.executive.checking import Finding, check
 from depal.executive.conditions import Value, at_once

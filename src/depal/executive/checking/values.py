@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 
-from depal.errors import did_you_mean
 from depal.executive.checking.findings import Finding, FindingKind, head_of, place_of
 from depal.executive.checking.names import check_fact
 from depal.executive.conditions import (

@@ -9,7 +9,7 @@ from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Body, Checker, Margins, Scene
 from depal.motion.collision.values import Array
 from depal.motion.grasping.bulk import EXACT
-from depal.motion.moves.margins import OPEN
+from depal.motion.moves.margins import OPEN, TILT
 from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
 from depal.motion.moves.reach import Reach
@@ -20,10 +20,22 @@ from depal.motion.planning.free import Effort
 class Mover:
     """Plans whole motions; a pure function of what it is given."""
 
-    def __init__(self, layout: CellLayout) -> None:
-        """For a cell."""
+    def __init__(self, layout: CellLayout, reach: Reach | None = None) -> None:
+        """For a cell.
+
+        Args:
+            layout: of the cell.
+            reach: of its arm; None for a new one.
+        """
         self.layout = layout
-        self._reach = Reach(layout)
+        self._reach = reach or Reach(layout)
+
+    def leaning(self, tilt: float) -> "Mover":
+        """The same with held boxes that lean no further than this, and than ever [rad]."""
+        least = min(tilt, TILT)
+        if least == self._reach.tilt:
+            return self
+        return Mover(self.layout, self._reach.leaning(least))
 
     @property
     def body(self) -> Body:
