@@ -64,6 +64,9 @@ class Picking:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
         rules = rules_on(work.engine, box.id, TAKING)
         scene = self._promises.scene(work.pile, zones=rules.zones)
+        stands = self._planner.why_no_start(start, scene) if rules.zones else ""
+        if stands:
+            return stands
         reason = ""
         for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
             found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room, rules.tilt)

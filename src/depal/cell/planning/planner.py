@@ -127,6 +127,12 @@ class Planner:
         mover = self.mover.leaning(load.rules.tilt)
         return mover.checker(scene, OPEN, load.grasp, load.size)
 
+    def why_no_start(self, start: Array, scene: Scene) -> str:
+        """Which zone an empty arm stands in, or too near to, in words; empty for none."""
+        folded = self._work.ports.gripper.folded()
+        hit = self.mover.checker(scene.zones, OPEN, folded=folded).why(start)
+        return f"{hit}, where it stands" if hit else ""
+
     def _lead_hits(self, load: Load, scene: Scene) -> str:
         """Which zone the way out of the pile enters, in words: it was planned for another task."""
         if not load.lead or not load.rules.zones:

@@ -13,6 +13,7 @@ from depal.motion.moves.margins import OPEN, TILT
 from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
 from depal.motion.moves.reach import Reach
+from depal.motion.moves.righting import righted
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
@@ -110,6 +111,8 @@ class Mover:
             scene: all that stands around, the held box left out.
             effort: for free space.
         """
+        lead = (*lead, *righted(self._reach, start, scene, berth.grasp, berth.size))
+        start = lead[-1].path[-1] if lead else start
         return plan_put(self._reach, lead, start, berth, scene, effort)
 
     def why_no_put(self, near: Array, berth: Berth, scene: Scene) -> str:
@@ -145,6 +148,8 @@ class Mover:
             scene: all that stands around, the held box left out.
             effort: for free space.
         """
+        lead = (*lead, *righted(self._reach, start, scene, grasp, size))
+        start = lead[-1].path[-1] if lead else start
         clear = self.checker(scene, OPEN, grasp, size)
         reasons: list[str] = []
         for pose in poses:
