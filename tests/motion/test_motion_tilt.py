@@ -25,7 +25,8 @@ def leans(path: Floats, grasp: Grasp) -> Floats:
     """How far the box's up axis is from the vertical in each row of a path, (n,) [rad]."""
     up = np.array(grasp.box_from_flange.rotation)[2]
     rise = [(MOVER.body.kinematics.frames(q)[6][:, :3] @ up)[2] for q in path]
-    return np.arccos(np.clip(rise, -1.0, 1.0))
+    angles: Floats = np.arccos(np.clip(rise, -1.0, 1.0))
+    return angles
 
 
 def carried(job: Job, place: PlaceId, tilt: float) -> tuple[Put | NoMotion, Grasp, Floats]:

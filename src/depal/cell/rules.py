@@ -44,6 +44,13 @@ class Rules:
         """Whether what keeps to these keeps to the others as well."""
         return self.tilt <= others.tilt and self.zones >= others.zones
 
+    def after(self, reason: str) -> str:
+        """Why there is no motion, with what it would have had to keep to."""
+        kept = [f"out of zone {name}" for name in sorted(self.zones)]
+        if math.isfinite(self.tilt):
+            kept.append(f"within {math.degrees(self.tilt):.3g} deg of tilt")
+        return f"{reason}, {' and '.join(kept)}" if kept else reason
+
 
 NO_RULES = Rules()
 """Whatever the planner thinks right."""

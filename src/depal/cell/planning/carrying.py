@@ -141,7 +141,7 @@ class Carrying:
                 reason = "the suction would not hold it"
                 continue
             return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
-        return reason
+        return load.rules.after(reason)
 
     def _spots(self, load: Load, place: PlaceId, limit: int) -> tuple[Spot, ...]:
         """Spots in a place that the arm reaches with the box as it is held, best first."""

@@ -74,7 +74,7 @@ class Picking:
                 beyond = EXACT if room == EXACT else self._beyond(box)
                 return self._timed(box, mass, found, scene, rules, beyond)
             reason = str(found)
-        return reason
+        return rules.after(reason)
 
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
@@ -190,7 +190,7 @@ class Picking:
         found = planner.pick(planner.here, solid, ways, scene, str(box), tilt=rules.tilt)
         await planner.charge(1)
         if isinstance(found, NoMotion):
-            return str(found)
+            return rules.after(str(found))
         if product is None:
             return f"nobody knows the product of box {box}"
         plan = self._timed(Recognition(box, solid, product.gtin), mass, found, scene, rules)

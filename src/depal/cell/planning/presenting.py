@@ -51,4 +51,4 @@ class Presenting:
                 continue
             found.append(trajectory)
             bulky = replace(bulky, lead=(), start=parts[-1].path[-1])
-        return ShowPlan(found[0], tuple(found[1:])) if found else reason
+        return ShowPlan(found[0], tuple(found[1:])) if found else rules.after(reason)
