@@ -12,6 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.controller import Controller
+from depal.cell.files import shipped_cell
 from depal.cell.rules import LEAVING, NO_RULES, Rules, rules_on
 from depal.cell.tasks import read_shipped_tasks
 from depal.cell.workplace import Held
@@ -95,7 +96,7 @@ def made(monkeypatch: pytest.MonkeyPatch, cell: Cell, clauses: str) -> Watched:
 
 def leans(watched: Watched) -> list[float]:
     """How far a held box leans at the most in each motion [deg]."""
-    kinematics = Kinematics(cells_at_work.shipped_cell("default").robot)
+    kinematics = Kinematics(shipped_cell("default").robot)
     found = []
     for held, motion in watched.carried:
         if held is None:
@@ -180,7 +181,7 @@ def test_a_fact_that_is_empty_limits_nothing(monkeypatch: pytest.MonkeyPatch) ->
 
 def zoned(zone: Zone, boxes: int = 2) -> Cell:
     """A cell with a zone."""
-    layout = replace(cells_at_work.shipped_cell("default"), zones=(zone,))
+    layout = replace(shipped_cell("default"), zones=(zone,))
     return Cell(boxes, layout=layout)
 
 
@@ -267,7 +268,7 @@ def test_a_cell_refuses_tasks_that_avoid_a_zone_it_does_not_have(
     monkeypatch: pytest.MonkeyPatch, zones: tuple[Zone, ...], said: str
 ) -> None:
     """Before anything moves; the message says which exist."""
-    layout = replace(cells_at_work.shipped_cell("default"), zones=zones)
+    layout = replace(shipped_cell("default"), zones=zones)
     cell = Cell(1, layout=layout)
     made(monkeypatch, cell, " avoids walls")
     with pytest.raises(TaskError, match=said) as refused:

@@ -1,6 +1,8 @@
 """Whole motions for the arm of one cell."""
 
+import copy
 from collections.abc import Iterable, Sequence
+from typing import Self
 
 import numpy as np
 
@@ -21,22 +23,19 @@ from depal.motion.planning.free import Effort
 class Mover:
     """Plans whole motions; a pure function of what it is given."""
 
-    def __init__(self, layout: CellLayout, reach: Reach | None = None) -> None:
-        """For a cell.
-
-        Args:
-            layout: of the cell.
-            reach: of its arm; None for a new one.
-        """
+    def __init__(self, layout: CellLayout) -> None:
+        """For a cell."""
         self.layout = layout
-        self._reach = reach or Reach(layout)
+        self._reach = Reach(layout)
 
-    def leaning(self, tilt: float) -> "Mover":
+    def leaning(self, tilt: float) -> Self:
         """The same with held boxes that lean no further than this, and than ever [rad]."""
         least = min(tilt, TILT)
         if least == self._reach.tilt:
             return self
-        return Mover(self.layout, self._reach.leaning(least))
+        other = copy.copy(self)
+        other._reach = self._reach.leaning(least)  # noqa: SLF001 - it is of this class
+        return other
 
     @property
     def body(self) -> Body:
