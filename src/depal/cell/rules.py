@@ -46,7 +46,8 @@ class Rules:
 
     def after(self, reason: str) -> str:
         """Why there is no motion, with what it would have had to keep to."""
-        kept = [f"out of zone {name}" for name in sorted(self.zones)]
+        named = (f"zone {name}" for name in sorted(self.zones))
+        kept = [f"out of {zone}" for zone in named if zone not in reason]
         if math.isfinite(self.tilt):
             kept.append(f"within {math.degrees(self.tilt):.3g} deg of tilt")
         return f"{reason}, {' and '.join(kept)}" if kept else reason
