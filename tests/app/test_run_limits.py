@@ -66,7 +66,7 @@ class Onlooker:
         while True:
             world.advance(clock.now())
             rise = [world.box(index).rotation[2][2] for index in range(len(THREE))]
-            self.leans.append(math.degrees(math.acos(min(1.0, min(rise)))))
+            self.leans.append(math.degrees(math.acos(min(1.0, *rise))))
             hand = Hand.of(LAYOUT.tool, folded=world.suction.folded)
             checker = Checker(body, hand, scene, bare)
             self.entered += not checker.free(np.array(world.joints()))

@@ -114,7 +114,7 @@ class Controller:
         """Every step of the executive: notes it, and answers faults once the step is over."""
         self._notes.heard(last, events)
         self._answers.hear(events)
-        if any(isinstance(event, ev.Changed) for event in events):
+        if any(isinstance(event, ev.Changed | ev.Ended) for event in events):
             self.work.bounds.refresh()
         loop = asyncio.get_running_loop()
         for event in events:
