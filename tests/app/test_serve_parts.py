@@ -133,6 +133,7 @@ def test_a_backup_is_a_folder_that_can_be_started_from(tmp_path: Path) -> None:
     [
         (Serving(cell="defualt"), "did you mean 'default'"),
         (Serving(perception="eyes"), "unknown perception 'eyes'"),
+        (Serving(tasks=("nothing.task",)), "nothing.task"),
         (Serving(pace=0.0), "more than 0, at most 50"),
         (Serving(host="0.0.0.0"), "nothing is encrypted"),  # noqa: S104 - it is refused
     ],

@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -17,10 +18,12 @@ from depal.cell.bookkeeping import GO_ON, HOPELESS
 from depal.cell.departures import Departure, Fate
 from depal.cell.files import shipped_cell
 from depal.cell.ledger import Found, KeptBox, Ledger, LeftBox, Page
+from depal.cell.tasks import read_shipped_tasks
 from depal.domain import Approach, BoxId
 from depal.errors import DepalError, DeviceError, JournalError
 from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.journal import SqliteJournal
+from depal.executive.language import format_repository, parse
 from depal.geometry import OrientedBox
 from depal.logistics.placing import Spot
 from depal.logistics.store import LocalStore, by_storage
@@ -48,6 +51,24 @@ def around(folder: Path) -> tuple[Means, WorldHere, Notes, LoopClock, LocalStore
         LAYOUT, folder, connect, lambda _: store, lambda: notes, lambda _: None, perception="truth"
     )
     return means, world, notes, clock, store
+
+
+def test_a_run_follows_the_task_files_that_the_cell_was_given(tmp_path: Path) -> None:
+    """In place of the shipped ones; its record holds them."""
+    text = format_repository(read_shipped_tasks())
+    own = parse(text.replace("limit speed cell.speed", "limit tilt 5 deg", 1))
+
+    async def shift() -> None:
+        means, world, notes, clock, _ = around(tmp_path)
+        means = replace(means, tasks=own)
+        day = Shift(means, world, notes, clock, Settings(), Picture(), lambda _: None)
+        await day.start(Order(1, DELIVERY))
+        await asyncio.sleep(2.0)
+        await day.end()
+
+    run_simulated(shift())
+    written = (tmp_path / "runs" / "1" / "tasks.task").read_text(encoding="utf-8")
+    assert parse(written).digest == own.digest
 
 
 def test_a_run_that_fails_is_over_and_the_next_one_may_be_started(

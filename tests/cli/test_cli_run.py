@@ -8,7 +8,12 @@ import pytest
 
 import depal.app.run.job
 from depal.app.reports.report import Report
+from depal.app.run.job import prepared
+from depal.app.run.tasks import tasks_of
 from depal.app.run.values import Options
+from depal.cell.files import shipped_cell
+from depal.cell.tasks import read_shipped_tasks
+from depal.executive.language import format_repository
 
 Run = Callable[..., tuple[int, str, str]]
 
@@ -149,6 +154,34 @@ def test_what_cannot_be_used_is_one_error_and_nothing_moves(
     assert err.startswith(f"error: {message}")
     assert err.count("error:") == 1
     assert "Traceback" not in err
+
+
+@pytest.mark.usefixtures("nothing_moves")
+def test_task_files_that_this_cell_cannot_follow_are_refused(depal: Run, tmp_path: Path) -> None:
+    """With every mistake: zones that it does not have, and tasks that it calls by itself."""
+    own = tmp_path / "own.task"
+    text = format_repository(read_shipped_tasks())
+    own.write_text(text.replace("limit speed cell.speed", "limit tilt 5 deg avoids aisle", 1))
+    status, out, err = depal("--tasks", own)
+    assert (status, out) == (2, "")
+    assert f"error: {own}: store(Box), avoids: the cell has no zone 'aisle'; its file" in err
+    own.write_text("fact a.b : flag\naction show_it(Box) until a.b sets a.b\n")
+    _, _, err = depal("--tasks", own)
+    assert "no primitive is bound to 'show_it'" in err
+    assert "there is no task 'depalletize', which the cell calls by itself" in err
+
+
+def test_own_task_files_are_taken_in_place_of_the_shipped_ones(tmp_path: Path) -> None:
+    """One or several; without any, nothing is read."""
+    own = tmp_path / "own.task"
+    text = format_repository(read_shipped_tasks())
+    own.write_text(text.replace("limit speed cell.speed", "limit tilt 5 deg", 1))
+    tasks = prepared(Options(tasks=(str(own),))).tasks
+    assert tasks is not None
+    (limit,) = tasks.schemata["store"].limits
+    assert (limit.quantity, limit.bound, limit.unit) == ("tilt", 5.0, "deg")
+    assert prepared(Options()).tasks is None
+    assert tasks_of((), shipped_cell()) == read_shipped_tasks()
 
 
 @pytest.mark.usefixtures("nothing_moves")

@@ -9,6 +9,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from depal.cell.files import shipped_text
 from depal.cli.tasks import tasks
 from depal.errors import InputError
 
@@ -71,6 +72,33 @@ def test_a_mistake_is_said_and_ends_with_status_1(run: Run, tmp_path: Path) -> N
     status, out = run("check", file)
     assert status == 1
     assert "unknown subtask 'actt'; did you mean 'act'?" in out
+
+
+LIMITED = """\
+fact Box.done : flag
+task work(Box) until Box.done limit tilt 5 deg, margin at least 0.03 g avoids aisle
+  - act(Box)
+action act(Box) until Box.done sets Box.done
+"""
+
+
+def test_limits_are_checked_always_and_zones_with_their_cell(run: Run, tmp_path: Path) -> None:
+    """Quantities, units and sides are the same in every cell."""
+    file, cell = tmp_path / "limited.task", tmp_path / "mine.yaml"
+    file.write_text(LIMITED)
+    zone = "zones:\n  - {name: isle, centre: [1.0, 0.5, 1.0], size: [0.1, 0.1, 0.1]}\n"
+    cell.write_text(shipped_text("default") + zone)
+    assert run("check", file)[0] == 0
+    status, out = run("check", file, "--cell", cell)
+    assert status == 1
+    assert "the cell has no zone 'aisle'; did you mean 'isle'?" in out
+    cell.write_text(cell.read_text().replace("isle", "aisle"))
+    assert run("check", file, "--cell", cell)[0] == 0
+    file.write_text(LIMITED.replace("margin at least", "margin").replace("5 deg", "5 m"))
+    status, out = run("check", file)
+    assert status == 1
+    assert "tilt is measured in rad, not in m" in out
+    assert "margin is bounded from below: write 'limit margin at least'" in out
 
 
 @pytest.mark.parametrize("command", ["show", "explore"])

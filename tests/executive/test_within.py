@@ -17,16 +17,25 @@ from depal.executive.events import Outcome
 from depal.executive.exploring import explore
 from depal.executive.exploring.grounding import conditions_of
 from depal.executive.language import parse
-from depal.executive.limits import limits_on
+from depal.executive.limits import (
+    avoided_on,
+    branches_ahead,
+    limits_of,
+    limits_on,
+    zones_of,
+)
 from depal.executive.nodes import LiveNode
 from depal.executive.schema import Action, Cancel, Repository
 from depal.executive.snapshot import freeze, thaw
 from depal.executive.tree import Tree, ground, sweep
+from depal.executive.units import Quantity
 from depal.executive.why import why
 
 CARRY = """
 fact cell.open   : flag
 fact cell.speed  : number?
+fact cell.firm   : number?
+fact cell.shut   : text?
 fact Box.held    : flag
 fact Box.stored  : flag
 fact Box.lost    : flag
@@ -34,7 +43,9 @@ resource arm capacity 1
 
 task store(Box) when not Box.lost until Box.stored
     within not cell.open
-    limit speed 0.5 m/s, speed cell.speed, payload 60 kg
+    limit speed 0.5 m/s, speed cell.speed, payload 60 kg,
+        margin at least 0.02 g, margin at least cell.firm
+    avoids aisle, cell.shut
     keeps arm
   - grasp(Box)
   - carry(Box) when Box.held
@@ -42,7 +53,9 @@ task store(Box) when not Box.lost until Box.stored
 action grasp(Box) until Box.held uses arm sets Box.held
     cancel never
 
-action carry(Box) until Box.stored limit speed 250 mm/s uses arm sets Box.stored
+action carry(Box) until Box.stored
+    limit speed 250 mm/s, margin at least 0.05 g avoids hatch
+    uses arm sets Box.stored
     cancel at_checkpoint
 """
 
@@ -155,8 +168,45 @@ def test_the_tightest_limit_counts(told: float | None) -> None:
     engine.change([("cell.speed", told)], "safety", 1.0)
     grasp, carry = engine.state.trees[1].nodes[1:]
     most = 3.0 if told is None else told
-    assert limits_on(grasp, engine.state.facts) == {"speed": min(0.5, most), "payload": 60.0}
-    assert limits_on(carry, engine.state.facts) == {"speed": min(0.25, most), "payload": 60.0}
+    assert limits_on(grasp, engine.state.facts)["speed"] == min(0.5, most)
+    assert limits_on(carry, engine.state.facts)["speed"] == min(0.25, most)
+    assert limits_on(carry, engine.state.facts)["payload"] == 60.0
+
+
+@given(st.none() | st.floats(0.01, 0.2))
+def test_of_lower_bounds_the_greatest_counts(told: float | None) -> None:
+    """For that is the tightest of them."""
+    engine = cell()
+    engine.change([("cell.firm", told)], "person", 1.0)
+    grasp, carry = engine.state.trees[1].nodes[1:]
+    least = 0.0 if told is None else told
+    assert limits_on(grasp, engine.state.facts)["margin"] == max(0.02, least)
+    assert limits_on(carry, engine.state.facts)["margin"] == max(0.05, least)
+
+
+def test_the_zones_of_the_whole_branch_are_avoided() -> None:
+    """A fact may name one more; while it is empty it names none."""
+    engine = cell()
+    grasp, carry = engine.state.trees[1].nodes[1:]
+    assert avoided_on(grasp, engine.state.facts) == {"aisle"}
+    assert avoided_on(carry, engine.state.facts) == {"aisle", "hatch"}
+    engine.change([("cell.shut", "corner")], "person", 1.0)
+    assert avoided_on(grasp, engine.state.facts) == {"aisle", "corner"}
+
+
+@given(SPEEDS, st.none() | st.just("corner"))
+def test_what_will_bind_a_task_is_known_before_it_is_allocated(
+    speed: float | None, shut: str | None
+) -> None:
+    """So that its motions can be planned ahead."""
+    engine = cell()
+    engine.change([("cell.speed", speed), ("cell.shut", shut)], "safety", 1.0)
+    facts = engine.state.facts
+    for node in engine.state.trees[1].nodes[1:]:
+        name = node.node.schema.name
+        (branch,) = branches_ahead(engine.repository, "store", ("b1",), {name})
+        assert limits_of(branch, facts) == limits_on(node, facts)
+        assert zones_of(branch, facts) == avoided_on(node, facts)
 
 
 def test_the_explanation_names_the_rule() -> None:
@@ -178,6 +228,8 @@ def test_every_drawing_shows_rules_and_limits(draw: object) -> None:
     words = " ".join(re.sub("</?(tspan|text|rect)[^>]*>", " ", text).split())  # lines are broken
     assert "✗ within not cell.open" in words
     assert "limit speed 0.5 m/s" in words
+    assert "margin at least 0.02 g" in words
+    assert "avoids aisle, cell.shut" in words
     assert "✓" not in draw(tree, None)  # type: ignore[operator]
 
 
@@ -199,7 +251,12 @@ def test_a_rule_that_contradicts_its_task_is_found() -> None:
     ]
 
 
-KNOWN = {"speed": "m/s", "payload": "kg"}
+KNOWN = {
+    "speed": Quantity("m/s"),
+    "payload": Quantity("kg"),
+    "tilt": Quantity("rad"),
+    "margin": Quantity("g", at_least=True),
+}
 
 
 @pytest.mark.parametrize(
@@ -209,6 +266,9 @@ KNOWN = {"speed": "m/s", "payload": "kg"}
         ("speed 1 kg", "speed is measured in m/s, not in kg"),
         ("speed cell.open", "cell.open holds a flag, and limits speed"),
         ("speed cell.sped", "undeclared fact 'cell.sped'; did you mean 'cell.speed'?"),
+        ("speed 1 g", "speed is measured in m/s, not in g"),
+        ("tilt at least 5 deg", "tilt is bounded from above: without 'at least'"),
+        ("margin 0.1 g", "margin is bounded from below: write 'limit margin at least'"),
     ],
 )
 def test_limits_that_nothing_keeps_are_mistakes(limit: str, said: str) -> None:
@@ -217,6 +277,25 @@ def test_limits_that_nothing_keeps_are_mistakes(limit: str, said: str) -> None:
     found = [str(one) for one in check(parse(text), None, KNOWN) if one.serious]
     assert found == [f"store(Box), limit: {said}"]
     assert not [one for one in check(parse(CARRY), None, KNOWN) if one.serious]
+
+
+@pytest.mark.parametrize(
+    ("zones", "known", "said"),
+    [
+        ("aisel", ("aisle", "hatch"), "the cell has no zone 'aisel'; did you mean 'aisle'?"),
+        ("aisle", (), "the cell has no zone 'aisle'; its file names none"),
+        ("cell.open", ("hatch",), "cell.open holds a flag, and no zone's name"),
+        ("cell.shutt", ("hatch",), "undeclared fact 'cell.shutt'; did you mean 'cell.shut'?"),
+    ],
+)
+def test_zones_that_are_not_there_are_mistakes(
+    zones: str, known: tuple[str, ...], said: str
+) -> None:
+    """And facts that cannot name one."""
+    text = CARRY.replace("aisle, cell.shut", zones).replace("avoids hatch", "")
+    found = [str(one) for one in check(parse(text), None, KNOWN, known) if one.serious]
+    assert found == [f"store(Box), avoids: {said}"]
+    assert not [one for one in check(parse(text), None, KNOWN) if "no zone '" in one.what]
 
 
 def test_the_facts_of_a_rule_are_known_to_every_node() -> None:

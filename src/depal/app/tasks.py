@@ -11,7 +11,8 @@ from rich.text import Text
 
 from depal.app.files import Json, write_text
 from depal.app.reports.report import Report
-from depal.cell.bounds import QUANTITIES
+from depal.cell.files import find_cell
+from depal.cell.quantities import QUANTITIES
 from depal.errors import Problem, SettingError, TaskError, did_you_mean
 from depal.executive.checking import Finding, check
 from depal.executive.conditions import Value, at_once
@@ -53,17 +54,20 @@ def repository_of(names: Sequence[str]) -> Repository:
     return read_tasks(list(dict.fromkeys(path for name in names for path in paths_of(name))))
 
 
-def check_report(names: Sequence[str]) -> Report:
+def check_report(names: Sequence[str], cell: str = "") -> Report:
     """Checks task files.
 
     Args:
         names: of files, which make one repository together.
+        cell: a cell file or the name of one that ships, whose zones they may avoid; "" where that
+            is not known yet.
 
     Returns:
         All findings; it holds where none is serious.
     """
     repository = repository_of(names)
-    findings = check(repository, quantities=QUANTITIES)
+    zones = [zone.name for zone in find_cell(cell).zones] if cell else None
+    findings = check(repository, None, QUANTITIES, zones)
     mistakes = sum(one.serious for one in findings)
     counts = f"{len(repository.schemata)} schemata, {len(repository.facts)} facts"
     said = f"{_counted(mistakes, 'mistake')}, {_counted(len(findings) - mistakes, 'remark')}"

@@ -11,7 +11,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
-from depal.cell.standing import left_by, standing_pile
+from depal.cell.standing import Firmness, left_by, standing_pile
 from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Perceived, Recognition, Request
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
@@ -50,15 +50,15 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     wishes, rule = work.wishes.open(work.now), rule_of(work)
     graph = blocking_of(work, desk, wishes)
     pile = standing_pile(work, graph)
-    watch = Watch(pile)
+    watch, firmness = Watch(pile), Firmness(work, pile)
     shaky: dict[BoxId, PickPlan] = {}
     before = desk.planner.planned
     waiting: set[BoxId] = set()
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
-        reason = why_left(work, box)
-        if reason is not None:
-            return Refused(reason)
+        stays = _stays(work, box, firmness)
+        if stays is not None:
+            return stays
         doubts = why_later(work, box)
         if doubts is not None and box.id not in waiting:
             waiting.add(box.id)
@@ -83,6 +83,12 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         decision = replace(decision, certificate=left_by(pile, chosen.id))
     doubts = why_later(work, chosen) if chosen is not None else None
     return Choice(decision, desk.planner.planned - before, doubts)
+
+
+def _stays(work: Workplace, box: Perceived, firmness: Firmness) -> Refused | None:
+    """Why a box is not to be taken now; None where it may be."""
+    reason = why_left(work, box)
+    return firmness.refusal(box.id) if reason is None else Refused(reason)
 
 
 def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:

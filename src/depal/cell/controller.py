@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from depal.cell.answers import EMPTY, Answers
 from depal.cell.bindings import bindings
 from depal.cell.bookkeeping import Bookkeeping
-from depal.cell.bounds import refuse_unknown
 from depal.cell.halting import HaltingArm
 from depal.cell.planning.desk import Desk
+from depal.cell.quantities import refuse_unknown
 from depal.cell.reporting import Journalist
 from depal.cell.safety import SafetyWatch
 from depal.cell.workplace import PALLET, Workplace
@@ -51,10 +51,10 @@ class Controller:
             arm: that goes on after a stop when `restart_arm` lets it; None where none stops.
 
         Raises:
-            TaskError: the task files name an action that this cell does not know, or limit what
-                it does not keep.
+            TaskError: the task files name an action that this cell does not know, limit what
+                it does not keep, or avoid a zone that it does not have.
         """
-        refuse_unknown(tasks)
+        refuse_unknown(tasks, [zone.name for zone in work.layout.zones])
         self.work = work
         self.desk = desk
         primitives, probes = bindings(work, desk, notes, arm)
@@ -114,7 +114,7 @@ class Controller:
         """Every step of the executive: notes it, and answers faults once the step is over."""
         self._notes.heard(last, events)
         self._answers.hear(events)
-        if any(isinstance(event, ev.Changed) for event in events):
+        if any(isinstance(event, ev.Changed | ev.Ended) for event in events):
             self.work.bounds.refresh()
         loop = asyncio.get_running_loop()
         for event in events:

@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass, field
 
-from depal.cell.bounds import PAYLOAD
+from depal.cell.quantities import PAYLOAD
 from depal.domain import BoxId
 from depal.executive.limits import Limits
 

@@ -29,7 +29,7 @@ from depal.domain import (
     Product,
     Recognition,
 )
-from depal.executive.engine import Call
+from depal.executive.engine import Call, Engine
 from depal.executive.events import Change
 from depal.executive.runtime import Runtime
 from depal.geometry import Vector3
@@ -244,6 +244,11 @@ class Workplace:
         if self._runtime is None:
             raise RuntimeError("the workplace is not bound to a runtime")
         return self._runtime
+
+    @property
+    def engine(self) -> Engine | None:
+        """What decides; None before it is bound."""
+        return None if self._runtime is None else self._runtime.engine
 
     @property
     def now(self) -> float:

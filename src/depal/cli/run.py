@@ -20,6 +20,14 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
+    tasks: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE",
+            help="A task file in place of the shipped ones; once for each file.",
+            show_default=False,
+        ),
+    ] = None,
     note: Annotated[
         str,
         typer.Option(
@@ -75,6 +83,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
         seed=seed,
         speed=speed,
         record=record,
+        tasks=tuple(tasks or ()),
     )
     warn = Console(stderr=True, soft_wrap=True)
     report = run_delivery(

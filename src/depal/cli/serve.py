@@ -15,6 +15,14 @@ def serve(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
+    tasks: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="FILE",
+            help="A task file in place of the shipped ones; once for each file.",
+            show_default=False,
+        ),
+    ] = None,
     db: Annotated[
         str, typer.Option(help="The store's database; a file in the data folder by default.")
     ] = "",
@@ -35,7 +43,17 @@ def serve(  # noqa: PLR0913, PLR0917 - a command's options
     from depal.app.serve.serving import serve as run  # noqa: PLC0415
 
     asked = Serving(
-        cell, data, db, host, port, tuple(name or ()), secure, perception, severity, pace
+        cell,
+        data,
+        db,
+        host,
+        port,
+        tuple(name or ()),
+        secure,
+        perception,
+        severity,
+        pace,
+        tuple(tasks or ()),
     )
     console = Console()
     run(asked, lambda link: console.print(f"The screen: {link}", soft_wrap=True))

@@ -37,6 +37,13 @@ def check(
         list[str],
         typer.Argument(metavar="FILE...", help="Task files, or shipped ones: store, cell."),
     ],
+    cell: Annotated[
+        str,
+        typer.Option(
+            help="The cell whose zones they may avoid: a file, or a shipped one by name.",
+            show_default=False,
+        ),
+    ] = "",
     json_file: JsonFile = None,
 ) -> None:
     """Find mistakes before anything runs; exit status 1 where there is one."""
@@ -44,7 +51,7 @@ def check(
     from depal.app.tasks import check_report  # noqa: PLC0415
 
     checked_target(json_file, "--json")
-    _finish(check_report(files), json_file)
+    _finish(check_report(files, cell), json_file)
 
 
 @tasks.command()

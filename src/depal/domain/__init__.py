@@ -20,6 +20,7 @@ from depal.domain.layout import (
     SpeedLimits,
     Storage,
     StorageKind,
+    Zone,
 )
 from depal.domain.names import BoxId, Gtin, PlaceId
 from depal.domain.place import Place
@@ -77,6 +78,7 @@ __all__ = [
     "Suction",
     "SuctionModule",
     "Tool",
+    "Zone",
     "cell_from_pallet",
     "checked_share",
 ]

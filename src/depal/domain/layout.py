@@ -122,6 +122,19 @@ class SpeedLimits:
 
 
 @dataclass(frozen=True, slots=True)
+class Zone:
+    """A volume that tasks may keep out of.
+
+    Attributes:
+        name: by which task files call it.
+        solid: its volume, in the cell frame.
+    """
+
+    name: str
+    solid: OrientedBox
+
+
+@dataclass(frozen=True, slots=True)
 class CellLayout:
     """A cell. The frame: robot's base at the origin, x to the pallet, y to the left, z up.
 
@@ -139,6 +152,7 @@ class CellLayout:
         speeds: limits for the arm.
         fixtures: further solid things (masts, the reader's housing), in the cell frame.
         fiducials: markers on the floor and on fixtures, each pattern once.
+        zones: volumes that arm, tool and held box keep out of while a task says so.
     """
 
     name: str
@@ -153,6 +167,7 @@ class CellLayout:
     speeds: SpeedLimits
     fixtures: tuple[OrientedBox, ...] = ()
     fiducials: tuple[Fiducial, ...] = ()
+    zones: tuple[Zone, ...] = ()
 
     @property
     def places(self) -> dict[PlaceId, Place]:

@@ -19,7 +19,7 @@ from depal.executive.conditions import Key, Value
 from depal.executive.engine import Call, Engine, Report, Step
 from depal.executive.events import Change, Outcome, encode
 from depal.executive.journal import Entry, Journal
-from depal.executive.limits import Limits, limits_on
+from depal.executive.limits import Limits, avoided_on, limits_on
 from depal.executive.schema import Action, Cancel
 from depal.executive.snapshot import freeze
 
@@ -41,7 +41,8 @@ class Context:
         args: the things that its parameters stand for, by parameter.
         facts: what is the case now; for reading.
         stop_reason: why it is to stop, None while it is not.
-        limits: tells what it must not exceed now [SI], quantity by quantity.
+        limits: tells what it must not exceed now [base units], quantity by quantity.
+        avoids: tells which zones it must not enter now.
     """
 
     attempt: int
@@ -50,6 +51,7 @@ class Context:
     facts: Mapping[Key, Value]
     stop_reason: str | None = field(default=None)
     limits: Callable[[], Limits] = field(default=dict)
+    avoids: Callable[[], frozenset[str]] = field(default=frozenset)
 
     async def checkpoint(self) -> None:
         """A moment at which the primitive may be broken off.
@@ -263,7 +265,15 @@ class Runtime:
         names = (param.name for param in action.params)
         facts = MappingProxyType(self.engine.state.facts)
         given = dict(zip(names, args, strict=True))
-        context = Context(attempt, action, given, facts, None, lambda: self._limits_on(attempt))
+        context = Context(
+            attempt,
+            action,
+            given,
+            facts,
+            None,
+            lambda: self._limits_on(attempt),
+            lambda: self._avoided_on(attempt),
+        )
         task = asyncio.get_running_loop().create_task(self._run(context, function, probing=probing))
         self._running[attempt] = (task, context)
         task.add_done_callback(lambda _: self._never_began(context))
@@ -273,6 +283,12 @@ class Runtime:
         state = self.engine.state
         known = state.attempts.get(attempt)
         return {} if known is None else limits_on(known.node, state.facts)
+
+    def _avoided_on(self, attempt: int) -> frozenset[str]:
+        """Which zones an attempt must not enter now."""
+        state = self.engine.state
+        known = state.attempts.get(attempt)
+        return frozenset() if known is None else avoided_on(known.node, state.facts)
 
     async def _run(self, context: Context, function: Primitive, *, probing: bool) -> None:
         try:

@@ -81,14 +81,16 @@ class Limit:
 
     Attributes:
         quantity: its name; which ones there are, the primitives know.
-        most: a number in its unit, or a fact that holds one in SI units; while the fact is empty
-            nothing is limited.
+        bound: a number in its unit, or a fact that holds one in base units; while the fact is
+            empty nothing is limited.
         unit: as written, a key of UNITS; empty behind a fact.
+        at_least: whether it is what no primitive may fall below: `limit margin at least 0.03 g`.
     """
 
     quantity: str
-    most: float | FactRef
+    bound: float | FactRef
     unit: str = ""
+    at_least: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -124,6 +126,7 @@ class Task:
         within: holds as long as anything below runs. Otherwise nothing below starts, what runs is
             asked to stop as its `cancel` says, and the task keeps what it keeps.
         limits: what no primitive below may exceed.
+        avoids: zones that nothing below may enter: their names, or facts that hold a name.
     """
 
     name: str
@@ -135,6 +138,7 @@ class Task:
     comment: str = ""
     within: Condition = ALWAYS
     limits: tuple[Limit, ...] = ()
+    avoids: tuple[str | FactRef, ...] = ()
 
 
 class Cancel(Enum):
@@ -165,6 +169,7 @@ class Action:
         comment: what it does, without the hash.
         within: holds as long as it runs, as for a task.
         limits: what it may not exceed.
+        avoids: zones that it may not enter, as for a task.
     """
 
     name: str
@@ -182,6 +187,7 @@ class Action:
     comment: str = ""
     within: Condition = ALWAYS
     limits: tuple[Limit, ...] = ()
+    avoids: tuple[str | FactRef, ...] = ()
 
 
 Schema = Task | Action

@@ -102,15 +102,21 @@ def tasks(draw: st.DrawFn) -> Task:
         draw(COMMENTS),
         draw(when),
         draw(limits(variables)),
+        draw(zones(variables)),
     )
 
 
 def limits(variables: tuple[str, ...]) -> st.SearchStrategy[tuple[Limit, ...]]:
     """Numbers with their units, and facts."""
-    numbers = st.builds(Limit, NAMES, DURATIONS, st.sampled_from(sorted(UNITS)))
-    return st.lists(
-        numbers | st.builds(Limit, NAMES, fact_refs(variables)), unique=True, max_size=3
-    ).map(tuple)
+    units, sides = st.sampled_from(sorted(UNITS)), st.booleans()
+    numbers = st.builds(Limit, NAMES, DURATIONS, units, sides)
+    told = st.builds(Limit, NAMES, fact_refs(variables), st.just(""), sides)
+    return st.lists(numbers | told, unique=True, max_size=3).map(tuple)
+
+
+def zones(variables: tuple[str, ...]) -> st.SearchStrategy[tuple[str | FactRef, ...]]:
+    """Names, and facts that hold one."""
+    return st.lists(NAMES | fact_refs(variables), unique=True, max_size=3).map(tuple)
 
 
 @st.composite
@@ -141,6 +147,7 @@ def actions(draw: st.DrawFn) -> Action:
         comment=draw(COMMENTS),
         within=draw(conditions(variables)),
         limits=draw(limits(variables)),
+        avoids=draw(zones(variables)),
     )
 
 

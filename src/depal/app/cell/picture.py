@@ -26,11 +26,12 @@ def cell_picture(layout: CellLayout, checked: CellReport) -> Figure:
     least, most = min(shares), max(shares)
     reached = f"{most} %" if least == most else f"{least} to {most} %"
     seen = checked.sights[-1].seen
+    zones = "; hatched, and in red lines: zones that tasks may avoid" if layout.zones else ""
     drawn = sheet(
         _HEIGHT,
         f"{layout.name}: {reached} of the load reached, {100 * seen:.0f} % of its front seen",
         "Left from above, right in space, the arm parked. Green places are reached, red ones are "
-        "not; the dashed block is the room for the load, 1.75 m high.",
+        f"not; the dashed block is the room for the load, 1.75 m high{zones}.",
         f"{layout.robot.name} · {len(layout.places)} places · shares: mean over "
         f"{', '.join(load.name for load in checked.sizes)} box of what the better grasp reaches",
     )

@@ -5,12 +5,13 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle, Polygon
 
 from depal.cell.checking.posture import Posture, posture
-from depal.domain import CameraMount, CellLayout, PlaceId, ReaderMount, Storage
+from depal.domain import CameraMount, CellLayout, PlaceId, ReaderMount, Storage, Zone
 from depal.geometry import OrientedBox, Pose
 from depal.studies.drawing.lettering import SMALL, write
 from depal.studies.drawing.palette import (
@@ -26,6 +27,8 @@ from depal.studies.drawing.palette import (
     blend,
     darker,
 )
+
+Floats = npt.NDArray[np.float64]
 
 MIDDLE = replace(SMALL, across="center", halo=True)
 ARM: Colour = (0.93, 0.55, 0.18)
@@ -52,6 +55,8 @@ def draw_plan(
         _storage(axes, storage, layout.aside, reached)
     for fixture in layout.fixtures:
         _rectangle(axes, fixture, GREY, INK, 4)
+    for zone in layout.zones:
+        _zone(axes, zone)
     _reader(axes, layout.reader)
     _arm(axes, posture(layout.robot, layout.tool, layout.robot.parked), scale)
     geometry = layout.robot.geometry
@@ -129,6 +134,19 @@ def _view(axes: Axes, camera: CameraMount) -> None:
     write(axes, (_flat(eye[0], eye[1])[0], _flat(eye[0], eye[1])[1] - 0.17), "camera", style)
 
 
+def _zone(axes: Axes, zone: Zone) -> None:
+    """A volume that tasks may avoid: hatched, for it is nothing solid."""
+    points = np.array([_flat(x, y) for x, y, _ in zone.solid.corners.tolist()])
+    edge = darker(CHANGED, 0.2)
+    axes.add_patch(
+        Polygon(
+            _outline(points), facecolor="none", edgecolor=edge, hatch="//", linewidth=1.0, zorder=5
+        )
+    )
+    x, y, _ = zone.solid.centre
+    write(axes, _flat(x, y), f"zone {zone.name}", replace(MIDDLE, colour=edge))
+
+
 def _reader(axes: Axes, reader: ReaderMount) -> None:
     pose = reader.cell_from_reader
     half = reader.field[0] / 2
@@ -165,10 +183,15 @@ def _arm(axes: Axes, arm: Posture, scale: float) -> None:
 def _rectangle(axes: Axes, box: OrientedBox, face: Colour, edge: Colour, layer: float) -> None:
     """The outline of a box from above."""
     points = np.array([_flat(x, y) for x, y, _ in box.corners.tolist()])
-    middle = points.mean(axis=0)
-    # The hull of eight points: by angle around the middle, which is right for an upright box.
-    outer = points[np.argsort(np.arctan2(*(points - middle).T[::-1]))]
-    axes.add_patch(Polygon(outer, facecolor=face, edgecolor=edge, linewidth=0.8, zorder=layer))
+    axes.add_patch(
+        Polygon(_outline(points), facecolor=face, edgecolor=edge, linewidth=0.8, zorder=layer)
+    )
+
+
+def _outline(points: Floats) -> Floats:
+    """The hull of eight points: by angle around the middle, which is right for an upright box."""
+    outer: Floats = points[np.argsort(np.arctan2(*(points - points.mean(axis=0)).T[::-1]))]
+    return outer
 
 
 def _flat(x: float, y: float) -> tuple[float, float]:

@@ -51,9 +51,12 @@ def draw_space(
     width, height = pixels
     picture = fine.reshape(height, SCALE, width, SCALE, 3).mean(axis=(1, 3))
     axes.imshow(np.clip(picture, 0, 1), extent=(0, width, height, 0), interpolation="none")
-    for line in _load_outline(layout):
+    for line in _edges(load_room(layout.pallet)):
         flat = view.project(line)[:, :2] / SCALE
         axes.plot(*flat.T, color=CASE_EDGE, linewidth=0.9, linestyle=(0, (4, 3)))
+    for line in (edge for zone in layout.zones for edge in _edges(zone.solid)):
+        flat = view.project(line)[:, :2] / SCALE
+        axes.plot(*flat.T, color=CHANGED, linewidth=0.9)
     axes.set_xlim(0, width)
     axes.set_ylim(height, 0)
 
@@ -114,9 +117,9 @@ def _storage(storage: Storage, reached: Mapping[PlaceId, float]) -> Iterator[Mes
         yield box_mesh(panel.seen_from(storage.cell_from_storage), colour)
 
 
-def _load_outline(layout: CellLayout) -> Iterator[npt.NDArray[np.float64]]:
-    """The edges of the room for the highest load, as lines."""
-    corners = load_room(layout.pallet).corners
+def _edges(box: OrientedBox) -> Iterator[npt.NDArray[np.float64]]:
+    """The edges of a box, as lines: of the room for the highest load, of a zone."""
+    corners = box.corners
     for a in range(8):
         for bit in (1, 2, 4):
             if not a & bit:

@@ -24,6 +24,7 @@ from depal.app.run.recovering import RecoveryTimes, TimedWorld
 from depal.app.run.request_ends import wrong_ends
 from depal.app.run.scoring import ScoreKeeper
 from depal.app.run.summary import Outcome, disagreements, run_report
+from depal.app.run.tasks import tasks_of
 from depal.app.run.values import PERCEPTIONS, TRUTH, Job, Options
 from depal.cell.controller import Controller
 from depal.cell.planning.desk import Desk, MotionDesk
@@ -85,6 +86,7 @@ def prepared(options: Options) -> Job:
     perception = one_of("--perception", options.perception, PERCEPTIONS)
     severity = Severity(one_of("--severity", options.severity, [each.value for each in Severity]))
     layout = cell_of(options.cell)
+    tasks = tasks_of(options.tasks, layout) if options.tasks else None
     delivery, note, requests = _delivery_and_requests(options)
     findings = refuse_what_cannot_work(layout, delivery if note is None else note)
     impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
@@ -109,6 +111,7 @@ def prepared(options: Options) -> Job:
         case2_names() if options.delivery == CASE2 else (),
         note,
         read_faults(Path(options.faults)) if options.faults else FaultPlan(),
+        tasks=tasks,
     )
 
 
@@ -146,7 +149,7 @@ def run_job(
         seeing: what the cell sees with.
     """
     began = time.perf_counter()
-    tasks = read_shipped_tasks()
+    tasks = job.tasks or read_shipped_tasks()
     with LocalStore() as store, Keeper.open(record, tasks) as keeper:
         outcome, film = run_simulated(_run(job, store, keeper, tasks, seeing, watch=watch))
         keeper.write_choices()

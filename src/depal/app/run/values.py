@@ -6,6 +6,7 @@ from pathlib import Path
 
 from depal.cell.workplace import Settings
 from depal.domain import BoxId, CellLayout, Delivery, Gtin, Request
+from depal.executive.schema import Repository
 from depal.geometry import Vector3
 from depal.simulation.faults import FaultPlan
 from depal.simulation.imaging.severity import Severity
@@ -35,6 +36,7 @@ class Options:
         record: the folder to keep a record in.
         cone: whether motions respect the suction's limits; only tests switch it off.
         faults: a file of faults, or "" for none.
+        tasks: task files in place of the shipped ones.
     """
 
     delivery: str = ""
@@ -51,6 +53,7 @@ class Options:
     record: Path | None = None
     cone: bool = True
     faults: str = ""
+    tasks: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +77,7 @@ class Job:
         inspected: whether the referee checks the invariants as it goes, and ends it where one is
             broken.
         horizon: a run that has not ended by then is broken off [s]; None for never.
+        tasks: what the cell can do; None for the shipped tasks.
     """
 
     layout: CellLayout
@@ -91,6 +95,7 @@ class Job:
     faults: FaultPlan = field(default_factory=FaultPlan)
     inspected: bool = False
     horizon: float | None = None
+    tasks: Repository | None = None
 
     @property
     def told(self) -> Delivery:

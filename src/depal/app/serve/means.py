@@ -7,6 +7,7 @@ from typing import Any
 
 from depal.app.serve.outside import Connect, Records
 from depal.domain import CellLayout
+from depal.executive.schema import Repository
 from depal.ports import StoreSystem
 
 Wrote = Callable[[int, int], None]
@@ -29,6 +30,7 @@ class Means:
         perception: "camera" or "truth".
         severity: how far simulated cameras and boxes are from ideal.
         wrote: told the number of each last event of a run's journal.
+        tasks: what the cell can do; None for the shipped tasks.
     """
 
     layout: CellLayout
@@ -40,3 +42,4 @@ class Means:
     perception: str = "camera"
     severity: str = "normal"
     wrote: Wrote = lambda _run, _sequence: None
+    tasks: Repository | None = None

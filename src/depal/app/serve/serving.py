@@ -14,6 +14,7 @@ from typing import Any
 import uvicorn
 
 from depal.app.run.inputs import cell_of, one_of
+from depal.app.run.tasks import tasks_of
 from depal.app.run.values import CAMERA, PERCEPTIONS
 from depal.app.serve.feed import Feed
 from depal.app.serve.host import Host
@@ -62,6 +63,7 @@ class Serving:
         perception: where boxes come from.
         severity: how far simulated cameras and boxes are from ideal.
         pace: seconds of the simulated world per second.
+        tasks: task files in place of the shipped ones.
     """
 
     cell: str = "default"
@@ -74,6 +76,7 @@ class Serving:
     perception: str = CAMERA
     severity: str = "normal"
     pace: float = 1.0
+    tasks: tuple[str, ...] = ()
 
 
 class Service:
@@ -92,6 +95,7 @@ class Service:
             InputError: something that was given cannot be used.
         """
         layout = cell_of(serving.cell)
+        tasks = tasks_of(serving.tasks, layout) if serving.tasks else None
         perception = one_of("--perception", serving.perception, PERCEPTIONS)
         if not 0.0 < serving.pace <= FASTEST:
             raise SettingError("--pace", f"{serving.pace!r}", f"more than 0, at most {FASTEST}")
@@ -119,6 +123,7 @@ class Service:
             perception=perception,
             severity=serving.severity,
             wrote=self._feed.wrote,
+            tasks=tasks,
         )
         settings = KeptSettings(self._database).get().settings
         self.host = Host(means, settings, self._unfinished())

@@ -28,6 +28,7 @@ from depal.executive.clock import Clock
 from depal.executive.journal import SqliteJournal
 from depal.executive.record import open_record
 from depal.executive.restart import resumed
+from depal.executive.schema import Repository
 from depal.ports import StoreSystem
 from depal.server import cell as server
 from depal.server.cellstate import QuestionState
@@ -59,6 +60,7 @@ class Surroundings:
         records: what is to be known after the run.
         clock: of the cell.
         seen: what it sees with.
+        tasks: what the cell can do; None for the shipped tasks.
     """
 
     layout: CellLayout
@@ -67,6 +69,7 @@ class Surroundings:
     records: Records
     clock: Clock
     seen: Seen
+    tasks: Repository | None = None
 
 
 class Session:
@@ -115,7 +118,7 @@ class Session:
         )
         findings = refuse_what_cannot_work(around.layout, order.delivery)
         impossible = {Gtin(finding.gtin): str(finding.problem) for finding in findings}
-        tasks = read_shipped_tasks()
+        tasks = around.tasks or read_shipped_tasks()
         self.journal: SqliteJournal = open_record(folder, tasks)
         self._ledger = Ledger(folder / LEDGER)
         old = self.journal.last > 0

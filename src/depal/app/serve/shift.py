@@ -153,7 +153,13 @@ class Shift:
             means.perception, means.layout, order.delivery, world, self._clock, order.run
         )
         around = Surroundings(
-            means.layout, world, means.store(order.run), self._records, self._clock, seen
+            means.layout,
+            world,
+            means.store(order.run),
+            self._records,
+            self._clock,
+            seen,
+            means.tasks,
         )
         wanted = replace(order, requests=self._early.requests) if self._begun else order
         session = Session(wanted, around, self._settings, self._folder(order), self._changed)

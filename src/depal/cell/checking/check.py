@@ -103,6 +103,9 @@ def _parked(mover: Mover) -> Iterator[CellFinding]:
     hit = mover.parked_hits()
     if hit:
         yield error("robot.parked", f"the parked arm touches something: {hit}", "a free posture")
+    for zone in mover.parked_in():
+        what = "the parked arm reaches into it: no task that avoids it can begin there"
+        yield warning(f"zone {zone}", what, "a zone or a posture elsewhere")
 
 
 def _pallet(reaches: Sequence[PalletReach]) -> Iterator[CellFinding]:

@@ -72,6 +72,17 @@ class Mover:
         checker = Checker(self._body, hand, scene, Margins(arm=0.0, tool=0.0, floor=0.0))
         return checker.why(np.array(self._layout.robot.parked))
 
+    def parked_in(self) -> tuple[str, ...]:
+        """The zones into which the parked arm reaches."""
+        hand, bare = Hand.of(self._layout.tool), Margins(arm=0.0, tool=0.0, floor=0.0)
+        parked = np.array(self._layout.robot.parked)
+        nothing = Scene.of([], [])
+        return tuple(
+            zone.name
+            for zone in self._layout.zones
+            if Checker(self._body, hand, nothing.with_zones([zone]), bare).why(parked)
+        )
+
     def can(self, task: Task, approach: Approach) -> bool:
         """Whether some grasp holds the box at the task and moves it as the task says."""
         named = [(f"case {number}", case) for number, case in enumerate(task.cases)]

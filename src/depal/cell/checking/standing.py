@@ -79,6 +79,11 @@ def check_standing(layout: CellLayout) -> Iterator[CellFinding]:
             floor = f"within x {x_low:g} .. {x_high:g}, y {y_low:g} .. {y_high:g}"
             yield error(thing.name, f"stands {out:.3f} m outside the floor", floor)
     yield from _facing(layout)
+    base = _base(layout)
+    for zone in layout.zones:
+        if _overlap(base, (zone.solid,)) > _TOUCHING:
+            what = "holds the robot's base: no motion could keep out of it"
+            yield error(f"zone {zone.name}", what, "a zone beside the robot")
 
 
 def load_room(pallet: PalletStand, height: float = LOAD_HEIGHT) -> OrientedBox:

@@ -20,6 +20,7 @@ from depal.cell.files.quantities import (
     Rectangle,
     Speed,
     View,
+    Word,
 )
 from depal.cell.files.robot_model import RobotEntry, three
 from depal.cell.files.tool_model import SolidEntry, ToolEntry
@@ -30,6 +31,7 @@ from depal.domain import (
     PalletStand,
     ReaderMount,
     SpeedLimits,
+    Zone,
     cell_from_pallet,
 )
 from depal.geometry import OrientedBox
@@ -159,6 +161,19 @@ class FixtureEntry(SolidEntry):
         return OrientedBox(turned(three(self.centre), yaw=self.turn), three(self.size))
 
 
+class ZoneEntry(SolidEntry):
+    """A volume that tasks may avoid: a cuboid along the cell's axes, or turned."""
+
+    name: Word = Field(description="by which task files call it")
+    turn: Degrees = Field(default=0.0, description="about the vertical [deg]")
+
+    def as_zone(self) -> Zone:
+        """The zone as the cell's own value."""
+        return Zone(
+            self.name, OrientedBox(turned(three(self.centre), yaw=self.turn), three(self.size))
+        )
+
+
 class CellEntry(BaseModel):
     """A cell: the robot's base at the origin, x to the pallet, y to the left, z up."""
 
@@ -184,6 +199,9 @@ class CellEntry(BaseModel):
     fiducials: Annotated[tuple[FiducialEntry, ...], LISTED] = Field(
         default=(), description="a list of markers: id, size, at, normal, turn"
     )
+    zones: Annotated[tuple[ZoneEntry, ...], LISTED] = Field(
+        default=(), description="a list of volumes that tasks may avoid: name, centre, size, turn"
+    )
 
     def as_layout(self) -> CellLayout:
         """The cell as the cell's own value; it must not contradict itself."""
@@ -206,4 +224,5 @@ class CellEntry(BaseModel):
                 *self.robot.as_plinth(),
             ),
             fiducials=tuple(fiducial.as_fiducial() for fiducial in self.fiducials),
+            zones=tuple(zone.as_zone() for zone in self.zones),
         )

@@ -71,6 +71,7 @@ def _names(cell: CellEntry) -> Iterator[Finding]:
     yield from _repeated(("places", "models"), models)
     yield from _repeated(("places", "storages"), storages)
     yield from _repeated(("camera",), [camera.name for camera in cell.camera])
+    yield from _repeated(("zones",), [zone.name for zone in cell.zones])
     for index, storage in enumerate(places.storages):
         if storage.model not in models:
             what = f"there is no model '{storage.model}'"

@@ -14,6 +14,7 @@ FARTHEST = 20.0
 """No cell is larger [m]."""
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+_WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
 def _within(least: float, most: float, unit: str) -> Callable[[float], float]:
@@ -37,6 +38,13 @@ def _name(value: str) -> str:
     if not _NAME.fullmatch(value):
         what = f"{shown(value)} is no name" if value else "is empty"
         raise refused(what, "letters, digits, _ and -, a letter first")
+    return value
+
+
+def _word(value: str) -> str:
+    if not _WORD.fullmatch(value):
+        what = f"{shown(value)} is no name" if value else "is empty"
+        raise refused(what, "letters, digits and _, a letter first: task files call it so")
     return value
 
 
@@ -147,6 +155,13 @@ Name = Annotated[
     WithJsonSchema({"type": "string", "pattern": f"^{_NAME.pattern}$"}),
 ]
 """What something is called in the file and in every message about it."""
+
+Word = Annotated[
+    str,
+    AfterValidator(_word),
+    WithJsonSchema({"type": "string", "pattern": f"^{_WORD.pattern}$"}),
+]
+"""What something is called in task files too."""
 
 TWO: JsonDict = {"minItems": 2, "maxItems": 2}
 THREE: JsonDict = {"minItems": 3, "maxItems": 3}

@@ -15,9 +15,11 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.surroundings import target_of
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.planning.trolleys import Trolleys
+from depal.cell.rules import LEAVING, rules_on
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId, StorageKind
 from depal.logistics.placing import MARGINS, Spot, find_spots
+from depal.motion.collision import Scene
 from depal.motion.moves import Berth, Kind, NoMotion, Part
 from depal.ports import Trajectory
 
@@ -86,7 +88,9 @@ class Carrying:
 
     def _load_of(self, box: BoxId) -> Load | None:
         load = load_of(box, self._work, self._promises.pick_of(box))
-        return None if load is None else load.bulky
+        if load is None:
+            return None
+        return replace(load.bulky, rules=rules_on(self._work.engine, box, LEAVING))
 
     def _by_another_grasp(self, box: BoxId, places: Sequence[PlaceId]) -> CarryPlan | None:
         """Held another way it may fit: the first way that has room somewhere."""
@@ -137,7 +141,7 @@ class Carrying:
     def _into(self, load: Load, place: PlaceId) -> CarryPlan | str:
         """Into one place, at the first of its spots that the arm reaches."""
         planner = self._planner
-        scene = self._promises.scene(self._work.pile, without=load.box)
+        scene = self._scene(load)
         reason = "no room"
         for spot in self._spots(load, place, SPOTS):
             berth = self._berth(load, place, spot)
@@ -152,11 +156,11 @@ class Carrying:
                 reason = "the suction would not hold it"
                 continue
             return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
-        return reason
+        return load.rules.after(reason)
 
     def _spots(self, load: Load, place: PlaceId, limit: int) -> tuple[Spot, ...]:
         """Spots in a place that the arm reaches with the box as it is held, best first."""
-        scene = self._promises.scene(self._work.pile, without=load.box)
+        scene = self._scene(load)
         mover = self._planner.mover
         return find_spots(
             self._promises.books.at(place),
@@ -166,6 +170,10 @@ class Carrying:
                 not mover.why_no_put(load.start, self._berth(load, place, spot), scene)
             ),
         )
+
+    def _scene(self, load: Load) -> Scene:
+        """All around a box in the hand, and what it is kept out of."""
+        return self._promises.scene(self._work.pile, load.box, load.rules.zones)
 
     def _berth(self, load: Load, place: PlaceId, spot: Spot) -> Berth:
         cell_from_place = self._work.layout.places[place].cell_from_place
@@ -198,7 +206,7 @@ class Carrying:
         promises = self._promises
         kept, here = promises.carry_of(box), self._planner.here
         there = self._open((place,)) if place != ASIDE else [place]
-        good = kept is not None and kept.place == place and bool(there)
+        good = kept is not None and kept.place == place and bool(there) and self._keeps(kept)
         if kept is not None and good and stands_at(here, kept.motion.start):
             promises.next_start = kept.end
             return kept
@@ -206,6 +214,11 @@ class Carrying:
         named = self._places_named(place)
         elsewhere = () if place == ASIDE else self._lists.get(box, ())
         return await self.find_place(box, (*named, *(p for p in elsewhere if p not in named)))
+
+    def _keeps(self, plan: CarryPlan) -> bool:
+        """Whether a plan keeps to what its tasks ask now."""
+        rules = rules_on(self._work.engine, plan.load.box, LEAVING)
+        return plan.load.rules.cover(rules)
 
     def _places_named(self, place: PlaceId) -> tuple[PlaceId, ...]:
         """The place itself, or all of the storage that boxes are set aside into."""

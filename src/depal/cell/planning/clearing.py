@@ -9,6 +9,8 @@ from depal.cell.planning.promises import Promises
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, Place
 from depal.geometry import Pose, Vector3
+from depal.motion.collision import Checker, Scene
+from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding
 from depal.motion.moves import OPEN, Kind, Part
 from depal.motion.planning.straight import straight_as_far
@@ -50,14 +52,12 @@ def _along(
     """Straight, no farther than until nothing is near any more; as far as the arm reaches."""
     held = work.held
     path = straight_as_far(planner.mover.body.kinematics, planner.here, shift)
-    scene = promises.scene(work.pile, without=None if held is None else held.box)
-    if held is None:
-        checker = planner.mover.checker(scene, OPEN, folded=work.ports.gripper.folded())
-    else:
-        checker = planner.mover.checker(scene, OPEN, held.grasp, held.size)
+    scene = promises.scene(work.pile, None if held is None else held.box, work.bounds.zones)
+    checker = _checker(work, planner, scene)
     free = checker.first_free(path)
     if len(work.pile) or _is_level(shift):  # above a pile that nobody has seen all the way counts
         path = path if free is None else path[: free + 1]
+    path = _short_of(path, _checker(work, planner, scene.zones))
     if len(path) < 2:  # noqa: PLR2004 - a path has two ends
         return None
     parts = [Part(Kind.STRAIGHT, path, touching=True)]
@@ -65,6 +65,20 @@ def _along(
         return planner.timing.along(parts)
     holding = Holding.of(held.grasp, held.mass, work.layout.tool, size=held.size)
     return planner.timing.along(parts, holding) or planner.timing.slowly(parts[0])
+
+
+def _checker(work: Workplace, planner: Planner, scene: Scene) -> Checker:
+    """The check for the hand as it is."""
+    held = work.held
+    if held is None:
+        return planner.mover.checker(scene, OPEN, folded=work.ports.gripper.folded())
+    return planner.mover.checker(scene, OPEN, held.grasp, held.size)
+
+
+def _short_of(path: Array, zones: Checker) -> Array:
+    """A way out that ends before it enters a zone, unless it begins in one."""
+    hit = zones.first_hit(path)
+    return path if hit is None or hit == 0 else path[:hit]
 
 
 def _is_level(shift: Vector3) -> bool:

@@ -37,7 +37,7 @@ class Feeling:
         path = straight(kinematics, planner.here, (x * way, y * way, z * way), pitch=FINE)
         if path is None:
             return None
-        scene = self._promises.scene(work.pile, without=plan.box.id)
+        scene = self._promises.scene(work.pile, plan.box.id, work.bounds.zones)
         checker = planner.mover.checker(scene, CLOSE, folded=plan.grasp.folded)
         if way > 0.0 and checker.first_hit(path) is not None:
             return None

@@ -13,9 +13,11 @@ from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.rules import TAKING, Rules, rules_on
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import Vector3
+from depal.motion.collision import Scene
 from depal.motion.grasping import EXACT, Holding, grasps
 from depal.motion.moves import OPEN, NoMotion, Part, Pick
 from depal.ports import Trajectory
@@ -60,15 +62,19 @@ class Picking:
         ways = [first] if first is not None else []
         if not only:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
-        scene = self._promises.scene(work.pile)
+        rules = rules_on(work.engine, box.id, TAKING)
+        scene = self._promises.scene(work.pile, zones=rules.zones)
+        stands = self._planner.why_no_start(start, scene) if rules.zones else ""
+        if stands:
+            return stands
         reason = ""
         for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
-            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room)
+            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room, rules.tilt)
             if not isinstance(found, NoMotion):
                 beyond = EXACT if room == EXACT else self._beyond(box)
-                return self._timed(box, mass, found, beyond)
+                return self._timed(box, mass, found, scene, rules, beyond)
             reason = str(found)
-        return reason
+        return rules.after(reason)
 
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
@@ -123,17 +129,22 @@ class Picking:
         return expected_masses(box, self._work.delivery)
 
     def _timed(
-        self, box: Perceived, mass: float, pick: Pick, beyond: Vector3 = EXACT
+        self,
+        box: Perceived,
+        mass: float,
+        pick: Pick,
+        scene: Scene,
+        rules: Rules,
+        beyond: Vector3 = EXACT,
     ) -> PickPlan | str:
         planner = self._planner
-        scene = self._promises.scene(self._work.pile)
         empty = planner.mover.checker(scene, OPEN, folded=pick.grasp.folded)
         holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
         approach = planner.timing.along(pick.approach, checker=empty)
         lift = planner.timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
             return "the suction would not hold it"
-        return PickPlan(box, mass, pick, approach, lift, beyond)
+        return PickPlan(box, mass, pick, approach, lift, beyond, rules)
 
     async def pick(self, box: BoxId) -> PickPlan | str:
         """The pick of a box from where the arm stands; planned anew where the kept one is off.
@@ -165,7 +176,8 @@ class Picking:
 
     def _is_good(self, plan: PickPlan, seen: Perceived) -> bool:
         moved = math.dist(plan.box.shape.centre, seen.shape.centre)
-        return moved < MOVED and stands_at(self._planner.here, plan.approach.start)
+        kept = plan.rules.cover(rules_on(self._work.engine, seen.id, TAKING))
+        return kept and moved < MOVED and stands_at(self._planner.here, plan.approach.start)
 
     async def pick_from(self, box: BoxId, place: PlaceId) -> PickPlan | str:
         """The pick of a box that stands in a place."""
@@ -177,15 +189,16 @@ class Picking:
         front = (float(-inward[0]), float(-inward[1]), 0.0)
         product = work.product_of(box)
         mass = product.mass if product else heaviest(solid.size)
-        scene = self._promises.scene(work.pile)
+        rules = rules_on(work.engine, box, TAKING)
+        scene = self._promises.scene(work.pile, zones=rules.zones)
         ways = grasps(solid, mass, work.layout.tool, front)
-        found = planner.pick(planner.here, solid, ways, scene, str(box))
+        found = planner.pick(planner.here, solid, ways, scene, str(box), tilt=rules.tilt)
         await planner.charge(1)
         if isinstance(found, NoMotion):
-            return str(found)
+            return rules.after(str(found))
         if product is None:
             return f"nobody knows the product of box {box}"
-        plan = self._timed(Recognition(box, solid, product.gtin), mass, found)
+        plan = self._timed(Recognition(box, solid, product.gtin), mass, found, scene, rules)
         if not isinstance(plan, str):
             self._promises.keep_pick(plan)
         return plan
@@ -193,7 +206,7 @@ class Picking:
     def park(self) -> Trajectory | None:
         """To where the arm stands idle, with an empty hand."""
         planner, folded = self._planner, self._work.ports.gripper.folded()
-        scene = self._promises.scene(self._work.pile)
+        scene = self._promises.scene(self._work.pile, zones=self._work.bounds.zones)
         part = planner.park(scene, folded=folded)
         if isinstance(part, NoMotion):
             return None

@@ -1,6 +1,7 @@
 """One motion at a time: planned with a seed of its own, counted, timed, charged."""
 
 import asyncio
+import math
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -15,7 +16,7 @@ from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
 from depal.motion.grasping import EXACT, Holding
-from depal.motion.moves import OPEN, Berth, Mover, NoMotion, Part, Pick, Put
+from depal.motion.moves import CLOSE, OPEN, Berth, Mover, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
 T = TypeVar("T")
@@ -77,6 +78,7 @@ class Planner:
         scene: Scene,
         name: str,
         beyond: Vector3 = EXACT,
+        tilt: float = math.inf,
     ) -> Pick | NoMotion:
         """To a box and off what it stands on.
 
@@ -87,24 +89,27 @@ class Planner:
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
             beyond: how much longer the box may be along its own axes, at either end [m].
+            tilt: how far the box may lean once it is held [rad].
         """
-        effort = self._effort(self.planned + 1)
-        return self._measured(
-            lambda: self.mover.pick(start, solid, ways, scene, name, effort, beyond)
-        )
+        effort, mover = self._effort(self.planned + 1), self.mover.leaning(tilt)
+        return self._measured(lambda: mover.pick(start, solid, ways, scene, name, effort, beyond))
 
     def put(self, load: Load, berth: Berth, scene: Scene) -> Put | NoMotion:
         """With a box into a place and out again."""
-        effort = self._effort(self.planned)
-        return self._measured(lambda: self.mover.put(load.lead, load.start, berth, scene, effort))
+        hit = self._lead_hits(load, scene)
+        if hit:
+            return NoMotion((hit,))
+        effort, mover = self._effort(self.planned), self.mover.leaning(load.rules.tilt)
+        return self._measured(lambda: mover.put(load.lead, load.start, berth, scene, effort))
 
     def show(self, load: Load, pose: Pose, scene: Scene) -> tuple[Part, ...] | NoMotion:
         """With a box to one pose of the flange."""
-        effort = self._effort(self.planned)
+        hit = self._lead_hits(load, scene)
+        if hit:
+            return NoMotion((hit,))
+        effort, mover = self._effort(self.planned), self.mover.leaning(load.rules.tilt)
         found = self._measured(
-            lambda: self.mover.show(
-                load.lead, load.start, load.grasp, load.size, [pose], scene, effort
-            )
+            lambda: mover.show(load.lead, load.start, load.grasp, load.size, [pose], scene, effort)
         )
         return found if isinstance(found, NoMotion) else found[0]
 
@@ -119,7 +124,21 @@ class Planner:
 
     def checker(self, load: Load, scene: Scene) -> Checker:
         """The check for a hand with a box, on free ways."""
-        return self.mover.checker(scene, OPEN, load.grasp, load.size)
+        mover = self.mover.leaning(load.rules.tilt)
+        return mover.checker(scene, OPEN, load.grasp, load.size)
+
+    def why_no_start(self, start: Array, scene: Scene) -> str:
+        """Which zone an empty arm stands in, or too near to, in words; empty for none."""
+        folded = self._work.ports.gripper.folded()
+        hit = self.mover.checker(scene.zones, OPEN, folded=folded).why(start)
+        return f"{hit}, where it stands" if hit else ""
+
+    def _lead_hits(self, load: Load, scene: Scene) -> str:
+        """Which zone the way out of the pile enters, in words: it was planned for another task."""
+        if not load.lead or not load.rules.zones:
+            return ""
+        checker = self.mover.checker(scene.zones, CLOSE, load.grasp, load.size)
+        return checker.why_along(np.concatenate([part.path for part in load.lead]))
 
     def _effort(self, number: int) -> Effort:
         return Effort(seed=self._seed + number)

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+from depal.cell.rules import NO_RULES, Rules
 from depal.domain import BoxId, Grasp, Joints, Perceived, PlaceId
 from depal.geometry import Pose, Vector3
 from depal.logistics.placing import Spot
@@ -22,6 +23,7 @@ class PickPlan:
         approach: from where the arm was expected to the plane of touch.
         lift: off what it stands on.
         beyond: how much longer the box may be along its own axes, at either end [m].
+        rules: that it keeps to.
     """
 
     box: Perceived
@@ -30,6 +32,7 @@ class PickPlan:
     approach: Trajectory
     lift: Trajectory
     beyond: Vector3 = EXACT
+    rules: Rules = NO_RULES
 
     @property
     def grasp(self) -> Grasp:
@@ -50,6 +53,7 @@ class Load:
         start: (6,) where free space begins [rad].
         beyond: how much longer the box may be along its own axes, at either end [m].
         short: how much less high it may be than it is taken to be, held at its top [m].
+        rules: that its next motion keeps to.
     """
 
     box: BoxId
@@ -60,6 +64,7 @@ class Load:
     start: Array
     beyond: Vector3 = EXACT
     short: float = 0.0
+    rules: Rules = NO_RULES
 
     @property
     def bulky(self) -> "Load":

@@ -7,6 +7,7 @@ from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import Load, ShowPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.showing import shown_poses
+from depal.cell.rules import SHOWING, rules_on
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId
 from depal.motion.moves import NoMotion
@@ -34,8 +35,9 @@ class Presenting:
 
     def _sides(self, load: Load) -> ShowPlan | str:
         planner = self._planner
-        scene = self._promises.scene(self._work.pile, without=load.box)
-        bulky = load.bulky
+        rules = rules_on(self._work.engine, load.box, SHOWING)
+        scene = self._promises.scene(self._work.pile, load.box, rules.zones)
+        bulky = replace(load.bulky, rules=rules)
         holding, clear = planner.holding(load), planner.checker(bulky, scene)
         found: list[Trajectory] = []
         reason = "no side can be shown"
@@ -49,4 +51,4 @@ class Presenting:
                 continue
             found.append(trajectory)
             bulky = replace(bulky, lead=(), start=parts[-1].path[-1])
-        return ShowPlan(found[0], tuple(found[1:])) if found else reason
+        return ShowPlan(found[0], tuple(found[1:])) if found else rules.after(reason)

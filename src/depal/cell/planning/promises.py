@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Collection, Iterator
+from collections.abc import Set as AbstractSet
 from contextlib import contextmanager
 
 from depal.cell.pile import Pile
@@ -31,9 +32,11 @@ class Promises:
         self.books = Books.empty(layout.places.values())
         self.next_start: Joints | None = None
 
-    def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
-        """Everything that stands around or will, one box left out."""
-        return self._around.scene(pile, without)
+    def scene(
+        self, pile: Pile, without: BoxId | None = None, zones: AbstractSet[str] = frozenset()
+    ) -> Scene:
+        """Everything that stands around or will, one box left out; with what is avoided."""
+        return self._around.scene(pile, without, zones)
 
     def standing(self, box: BoxId, place: PlaceId) -> OrientedBox | None:
         """A box that stands in a place, in the cell frame; None where it does not."""

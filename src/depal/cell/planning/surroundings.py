@@ -1,11 +1,12 @@
 """What the arm must not touch, as the cell believes: the scene for the planner."""
 
 from collections.abc import Iterable
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
 from depal.cell.pile import Pile
-from depal.domain import BoxId, CellLayout, PlaceId
+from depal.domain import BoxId, CellLayout, PlaceId, Zone
 from depal.geometry import OrientedBox, Pose
 from depal.logistics.placing import Spot
 from depal.motion.collision import Scene, fixed_solids
@@ -15,6 +16,9 @@ SEAM = 0.01
 
 STRANGE = "something before the camera"
 """What a look shows and no box explains is called so."""
+
+EVERYWHERE = 100.0
+"""An edge of the zone that a cell does not have: everything is in it [m]."""
 
 THIN = 0.05
 """Lower columns are not worth a solid [m]."""
@@ -27,6 +31,7 @@ class Surroundings:
         """Nothing stands in any place yet."""
         self._fixed = fixed_solids(layout)
         self._deck = layout.pallet.cell_from_pallet.translation[2]
+        self._zones = {zone.name: zone for zone in layout.zones}
         self._placed: dict[BoxId, tuple[PlaceId, OrientedBox]] = {}
 
     def put(self, box: BoxId, place: PlaceId, solid: OrientedBox) -> None:
@@ -48,8 +53,13 @@ class Surroundings:
         gone = set(places)
         self._placed = {box: entry for box, entry in self._placed.items() if entry[0] not in gone}
 
-    def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
-        """Everything that stands around, one box left out."""
+    def scene(
+        self, pile: Pile, without: BoxId | None = None, zones: AbstractSet[str] = frozenset()
+    ) -> Scene:
+        """Everything that stands around, one box left out; with the zones that are avoided.
+
+        A zone that the cell does not have might be anywhere: nothing moves.
+        """
         cases = [(str(box.id), box.shape) for box in pile.boxes if box.id != without]
         cases += [
             (f"what is under {box.id}", column)
@@ -68,7 +78,12 @@ class Surroundings:
             if (column := self._column(solid)) is not None
         ]
         cases += [(str(box), solid) for box, (_, solid) in self._placed.items() if box != without]
-        return Scene.of(self._fixed, cases)
+        return Scene.of(self._fixed, cases).with_zones([self._zone(name) for name in sorted(zones)])
+
+    def _zone(self, name: str) -> Zone:
+        size = (EVERYWHERE, EVERYWHERE, EVERYWHERE)
+        unknown = Zone(f"{name}, which the cell does not have", OrientedBox(Pose(), size))
+        return self._zones.get(name, unknown)
 
     def _column(self, box: OrientedBox) -> OrientedBox | None:
         """What carries a box, seen or not: everything below it down to the deck."""

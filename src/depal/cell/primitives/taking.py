@@ -13,6 +13,7 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.feeling import seals, sucked
 from depal.cell.primitives.withdrawing import out_of_view
+from depal.cell.standing import Firmness
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
@@ -66,6 +67,8 @@ class Taking:
             return Report(outcome=Outcome.FAILED, reason=plan)
         least, _ = self._desk.picking.masses(plan.box)
         refusal = self._payload.refusal(box, least, context.limits())
+        unfirm = Firmness(self._work).refusal(box) if refusal is None else None
+        refusal = unfirm.reason if unfirm is not None else refusal
         if refusal is not None:
             return Report(outcome=Outcome.FAILED, reason=refusal)
         ports = self._work.ports

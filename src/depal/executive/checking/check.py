@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping
 
+from depal.executive.checking.bounds import check_bounds, check_quantities, check_zones
 from depal.executive.checking.branches import contradictions
 from depal.executive.checking.calls import Calls
 from depal.executive.checking.effects import check_effect
@@ -9,32 +10,36 @@ from depal.executive.checking.findings import Finding, FindingKind, head_of
 from depal.executive.checking.names import check_names
 from depal.executive.checking.places import Verdict, agreed
 from depal.executive.checking.runs import contentions, reach, shared_changes, unreached
-from depal.executive.checking.values import check_conditions, check_quantities
+from depal.executive.checking.values import check_conditions
 from depal.executive.exploring.grounding import example_arguments
 from depal.executive.exploring.model import Model
 from depal.executive.schema import Action, Repository
 from depal.executive.tree import ground
+from depal.executive.units import Quantity
 
 
 def check(
     repository: Repository,
     primitives: Collection[str] | None = None,
-    quantities: Mapping[str, str] | None = None,
+    quantities: Mapping[str, Quantity] | None = None,
+    zones: Collection[str] | None = None,
 ) -> list[Finding]:
     """Everything that is wrong with a repository, and what is worth knowing about it.
 
     Args:
         repository: any that could be read.
         primitives: the names that are bound to code; None where that is not known yet.
-        quantities: the SI unit of each quantity whose limit primitives keep; None where that is not
-            known yet.
+        quantities: whose limits primitives keep, by name; None where that is not known yet.
+        zones: the names of the cell's zones; None where that is not known yet.
 
     Returns:
         Mistakes in the order of the schemata, then remarks; each only once.
     """
     calls = Calls(repository)
     found = [*check_names(repository, primitives), *check_conditions(repository)]
+    found += check_bounds(repository)
     found += check_quantities(repository, quantities) if quantities is not None else []
+    found += check_zones(repository, zones) if zones is not None else []
     found += calls.findings()
     broken = _broken(repository, found) | {name for circle in calls.endless for name in circle}
     for schema in repository.schemata.values():

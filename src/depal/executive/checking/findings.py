@@ -18,6 +18,7 @@ class FindingKind(Enum):
     UNDECLARED_FACT = "undeclared fact"
     WRONG_VALUE = "comparison with another kind of value"
     UNKNOWN_QUANTITY = "unknown quantity"
+    UNKNOWN_ZONE = "unknown zone"
     UNDECLARED_RESOURCE = "undeclared resource"
     OVER_CAPACITY = "more than the capacity"
     ENDLESS = "endless recursion"

@@ -1,8 +1,7 @@
 """Whether conditions compare facts with values that they can have."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 
-from depal.errors import did_you_mean
 from depal.executive.checking.findings import Finding, FindingKind, head_of, place_of
 from depal.executive.checking.names import check_fact
 from depal.executive.conditions import (
@@ -21,12 +20,10 @@ from depal.executive.schema import (
     NUMBER,
     TEXT,
     FactDeclaration,
-    Limit,
     Repository,
     Schema,
     Task,
 )
-from depal.executive.units import UNITS
 
 ORDERED = frozenset({"<", "<=", ">", ">="})
 
@@ -50,40 +47,6 @@ def check_conditions(repository: Repository) -> Iterator[Finding]:
                 yield from check_fact(repository, schema, fact, where)
             for compare in comparisons_of(condition):
                 yield from _check_comparison(repository, schema, compare, where)
-        for limit in schema.limits:
-            yield from _check_limit(repository, schema, limit)
-
-
-def check_quantities(repository: Repository, known: Mapping[str, str]) -> Iterator[Finding]:
-    """Limits of quantities that no primitive keeps, or in units of another quantity.
-
-    Args:
-        repository: any.
-        known: the SI unit of each quantity that primitives keep, by its name.
-    """
-    for schema in repository.schemata.values():
-        where = f"{head_of(schema)}, limit"
-        for limit in schema.limits:
-            base = known.get(limit.quantity)
-            if base is None:
-                exists = did_you_mean(limit.quantity, known)
-                what = f"nothing keeps a limit of {limit.quantity!r}"
-                yield Finding(FindingKind.UNKNOWN_QUANTITY, where, what, exists)
-            elif limit.unit and UNITS[limit.unit].base != base:
-                what = f"{limit.quantity} is measured in {base}, not in {limit.unit}"
-                yield Finding(FindingKind.WRONG_VALUE, where, what)
-
-
-def _check_limit(repository: Repository, schema: Schema, limit: Limit) -> Iterator[Finding]:
-    """A limit that is a fact is a declared number."""
-    if not isinstance(limit.most, FactRef):
-        return
-    where = f"{head_of(schema)}, limit"
-    yield from check_fact(repository, schema, limit.most, where)
-    fact = declaration_of(repository, limit.most, sorts_of(schema))
-    if fact is not None and NUMBER not in fact.type.kinds:
-        what = f"{fact.name} holds a {' or '.join(fact.type.kinds)}, and limits {limit.quantity}"
-        yield Finding(FindingKind.WRONG_VALUE, where, what)
 
 
 def _check_comparison(

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from depal.executive.conditions import AllOf, Always, Condition
 from depal.executive.exploring.grounding import grounded
 from depal.executive.language import format_condition
-from depal.executive.language.condition_text import GLUE, limit_text
+from depal.executive.language.condition_text import GLUE, limit_text, zone_text
 from depal.executive.tree import Node, NodeState, Standing, Tree
 
 Standings = Sequence[Standing] | None
@@ -23,6 +23,7 @@ class Drawn:
         when: its precondition, empty where there is none.
         within: what must hold as long as anything of it runs, empty where there is none.
         limit: what nothing below may exceed, empty where there is none.
+        avoids: the zones that nothing below may enter, empty where there is none.
         met: whether the precondition holds; None without states.
         inside: whether `within` holds; None without states.
         state: its state; None without states.
@@ -35,6 +36,7 @@ class Drawn:
     when: str
     within: str
     limit: str
+    avoids: str
     met: bool | None
     inside: bool | None
     state: NodeState | None
@@ -48,6 +50,7 @@ class Drawn:
             (self.met, self.when, ""),
             (self.inside, self.within, "within "),
             (None, self.limit, "limit "),
+            (None, self.avoids, "avoids "),
         )
         return tuple(f"{_mark(holds)}{word}{text}" for holds, text, word in parts if text)
 
@@ -76,6 +79,7 @@ def _drawn(node: Node, standing: Standing | None) -> Drawn:
         when=precondition(node),
         within="" if isinstance(within, Always) else format_condition(within),
         limit=", ".join(limit_text(limit).replace(GLUE, " ") for limit in schema.limits),
+        avoids=", ".join(map(zone_text, schema.avoids)),
         met=None if standing is None else standing.pre,
         inside=None if standing is None else standing.within,
         state=None if standing is None else standing.state,

@@ -8,7 +8,7 @@ from typing import Final, TypeVar
 from depal.executive.conditions import ALWAYS, Condition, FactRef
 from depal.executive.language.condition_reader import read_condition, read_fact
 from depal.executive.language.cursor import Cursor
-from depal.executive.language.limit_reader import read_limit
+from depal.executive.language.limit_reader import read_limit, read_zone
 from depal.executive.language.tokens import Kind, Token
 from depal.executive.language.words import (
     ACTION_CLAUSES,
@@ -21,7 +21,7 @@ from depal.executive.language.words import (
 )
 from depal.executive.schema import Cancel, Limit
 
-_Item = TypeVar("_Item", str, FactRef, Limit)
+_Item = TypeVar("_Item", str, FactRef, Limit, str | FactRef)
 
 OWNERS: Final[Mapping[str, tuple[str, ...]]] = {
     "a task": TASK_CLAUSES,
@@ -39,6 +39,7 @@ class Clauses:
     until: Condition | None = None
     within: Condition = ALWAYS
     limits: tuple[Limit, ...] = ()
+    avoids: tuple[str | FactRef, ...] = ()
     keeps: tuple[str, ...] = ()
     uses: tuple[str, ...] = ()
     sets: tuple[FactRef, ...] = ()
@@ -108,6 +109,8 @@ def _read_value(  # noqa: C901, PLR0912 - one case a clause
             clauses.within = read_condition(cursor, variables)
         case "limit":
             clauses.limits = _limits(cursor, variables)
+        case "avoids":
+            clauses.avoids = _zones(cursor, variables)
         case "keeps":
             clauses.keeps = _names(cursor, word)
         case "uses":
@@ -140,6 +143,10 @@ def _facts(cursor: Cursor, variables: AbstractSet[str]) -> tuple[FactRef, ...]:
 
 def _limits(cursor: Cursor, variables: AbstractSet[str]) -> tuple[Limit, ...]:
     return _list(cursor, "limit", lambda: read_limit(cursor, variables))
+
+
+def _zones(cursor: Cursor, variables: AbstractSet[str]) -> tuple[str | FactRef, ...]:
+    return _list(cursor, "avoids", lambda: read_zone(cursor, variables))
 
 
 def _list(cursor: Cursor, word: str, read: Callable[[], _Item]) -> tuple[_Item, ...]:

@@ -102,10 +102,16 @@ def number_text(number: float) -> str:
 
 
 def limit_text(limit: Limit) -> str:
-    """`speed 0.25 m/s`."""
-    if isinstance(limit.most, FactRef):
-        return f"{limit.quantity}{GLUE}{fact_text(limit.most)}"
-    return f"{limit.quantity}{GLUE}{number_text(limit.most)}{GLUE}{limit.unit}"
+    """`speed 0.25 m/s`, or `margin at least 0.03 g`."""
+    head = f"{limit.quantity}{GLUE}at{GLUE}least" if limit.at_least else limit.quantity
+    if isinstance(limit.bound, FactRef):
+        return f"{head}{GLUE}{fact_text(limit.bound)}"
+    return f"{head}{GLUE}{number_text(limit.bound)}{GLUE}{limit.unit}"
+
+
+def zone_text(zone: str | FactRef) -> str:
+    """The name of a zone, or the fact that tells it."""
+    return zone if isinstance(zone, str) else fact_text(zone)
 
 
 def duration_text(seconds: float) -> str:

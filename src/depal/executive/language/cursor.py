@@ -45,6 +45,11 @@ class Cursor:
         """Whether the next two tokens are a name and an opening parenthesis."""
         return self.here.kind is Kind.WORD and self._tokens[self._index + 1].text == "("
 
+    @property
+    def is_fact(self) -> bool:
+        """Whether the next two tokens are a name and a full stop."""
+        return self.here.kind is Kind.WORD and self._tokens[self._index + 1].text == "."
+
     def advance(self) -> Token:
         """Takes the next token; never at the end."""
         token = self.here

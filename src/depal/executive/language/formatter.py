@@ -13,6 +13,7 @@ from depal.executive.language.condition_text import (
     limit_text,
     number_text,
     operand_text,
+    zone_text,
 )
 from depal.executive.language.layout import (
     column,
@@ -165,12 +166,14 @@ def _until(schema: Schema) -> str:
 
 
 def _bounds(schema: Schema) -> list[str]:
-    """What holds throughout, and what is not exceeded."""
+    """What holds throughout, what is not exceeded, and what is not entered."""
     clauses = []
     if schema.within != ALWAYS:
         clauses.append(f"within{GLUE}{glued_condition(schema.within)}")
     if schema.limits:
         clauses.append(f"limit{GLUE}{', '.join(map(limit_text, schema.limits))}")
+    if schema.avoids:
+        clauses.append(f"avoids{GLUE}{', '.join(map(zone_text, schema.avoids))}")
     return clauses
 
 

@@ -16,7 +16,7 @@ _Head = tuple[str, tuple[Param, ...]]
 
 
 def read_task(line: Line, steps: Sequence[Line], problems: list[Problem]) -> Task:
-    """`task NAME(Params) [when COND] until COND [within COND] [limit Q X] [keeps R]`, its steps.
+    """`task NAME(Params) [when C] until C [within C] [limit Q X] [avoids Z] [keeps R]`, its steps.
 
     Args:
         line: it begins with `task`.
@@ -60,6 +60,7 @@ def read_task(line: Line, steps: Sequence[Line], problems: list[Problem]) -> Tas
         comment=comment,
         within=clauses.within,
         limits=clauses.limits,
+        avoids=clauses.avoids,
     )
 
 
@@ -135,6 +136,7 @@ def read_action(line: Line, steps: Sequence[Line], problems: list[Problem]) -> A
         idempotent=clauses.idempotent,
         within=clauses.within,
         limits=clauses.limits,
+        avoids=clauses.avoids,
         comment=joined(line.comments),
     )
 

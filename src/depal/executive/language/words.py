@@ -5,9 +5,9 @@ from typing import Final
 
 DECLARATIONS: Final = ("fact", "resource", "task", "action", "schema")
 
-TASK_CLAUSES: Final = ("when", "until", "within", "limit", "keeps")
+TASK_CLAUSES: Final = ("when", "until", "within", "limit", "avoids", "keeps")
 ACTION_CLAUSES: Final = (
-    *("when", "until", "within", "limit", "uses", "sets"),
+    *("when", "until", "within", "limit", "avoids", "uses", "sets"),
     *("cancel", "timeout", "retries", "backoff", "probe", "idempotent"),
 )
 STEP_CLAUSES: Final = ("when", "bias")

@@ -7,10 +7,13 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from depal.domain import CellLayout, Grasp, Robot, Tool
+from depal.domain import CellLayout, Grasp, Robot, Tool, Zone
 from depal.geometry import OrientedBox, Vector3
 
 Array = npt.NDArray[np.float64]
+
+ZONE = "zone "
+"""Zones are called so in a scene, and then by their names."""
 
 SPACING = 0.6
 """Spheres along a capsule stand at most this many radii apart."""
@@ -81,9 +84,23 @@ class Scene:
 
     def with_case(self, name: str, box: OrientedBox) -> "Scene":
         """The scene with one more case."""
-        more = solids_of([box])
+        return self._with([(name, box)], pile=True)
+
+    def with_zones(self, zones: Sequence[Zone]) -> "Scene":
+        """The scene with volumes that nothing may enter, as if they were solid."""
+        named = [(f"{ZONE}{zone.name}", zone.solid) for zone in zones]
+        return self._with(named, pile=False) if named else self
+
+    @property
+    def zones(self) -> "Scene":
+        """The scene's zones alone."""
+        return self.without(*(name for name in self.names if not name.startswith(ZONE)))
+
+    def _with(self, named: Sequence[tuple[str, OrientedBox]], *, pile: bool) -> "Scene":
+        more = solids_of(box for _, box in named)
         joined = Solids(*(np.concatenate(pair) for pair in zip(self.solids, more, strict=True)))
-        return Scene((*self.names, name), joined, np.append(self.pile, True))
+        names = (*self.names, *(name for name, _ in named))
+        return Scene(names, joined, np.append(self.pile, [pile] * len(named)))
 
 
 def fixed_solids(layout: CellLayout) -> list[tuple[str, OrientedBox]]:

@@ -1,6 +1,8 @@
 """Whole motions for the arm of one cell."""
 
+import copy
 from collections.abc import Iterable, Sequence
+from typing import Self
 
 import numpy as np
 
@@ -9,10 +11,11 @@ from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Body, Checker, Margins, Scene
 from depal.motion.collision.values import Array
 from depal.motion.grasping.bulk import EXACT
-from depal.motion.moves.margins import OPEN
+from depal.motion.moves.margins import OPEN, TILT
 from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
 from depal.motion.moves.reach import Reach
+from depal.motion.moves.righting import righted
 from depal.motion.moves.values import Kind, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
@@ -24,6 +27,15 @@ class Mover:
         """For a cell."""
         self.layout = layout
         self._reach = Reach(layout)
+
+    def leaning(self, tilt: float) -> Self:
+        """The same with held boxes that lean no further than this, and than ever [rad]."""
+        least = min(tilt, TILT)
+        if least == self._reach.tilt:
+            return self
+        other = copy.copy(self)
+        other._reach = self._reach.leaning(least)  # noqa: SLF001 - it is of this class
+        return other
 
     @property
     def body(self) -> Body:
@@ -98,6 +110,8 @@ class Mover:
             scene: all that stands around, the held box left out.
             effort: for free space.
         """
+        lead = (*lead, *righted(self._reach, start, scene, berth.grasp, berth.size))
+        start = lead[-1].path[-1] if lead else start
         return plan_put(self._reach, lead, start, berth, scene, effort)
 
     def why_no_put(self, near: Array, berth: Berth, scene: Scene) -> str:
@@ -133,6 +147,8 @@ class Mover:
             scene: all that stands around, the held box left out.
             effort: for free space.
         """
+        lead = (*lead, *righted(self._reach, start, scene, grasp, size))
+        start = lead[-1].path[-1] if lead else start
         clear = self.checker(scene, OPEN, grasp, size)
         reasons: list[str] = []
         for pose in poses:

@@ -1,5 +1,7 @@
 """What every whole motion needs: checks for a hand, configurations for a pose, straight moves."""
 
+import copy
+
 import numpy as np
 
 from depal.domain import CellLayout, Grasp
@@ -21,14 +23,22 @@ class Reach:
         layout: the cell.
         body: its arm, ready for checks.
         free: plans through free space.
+        tilt: how far a held box may lean [rad].
     """
 
     def __init__(self, layout: CellLayout) -> None:
         """For a cell."""
         self.layout = layout
+        self.tilt = TILT
         self.body = Body.of(layout)
         self.free = FreePlanner(self.body.kinematics, layout.robot.limits)
         self._speed = np.array(layout.robot.limits.speed)
+
+    def leaning(self, tilt: float) -> "Reach":
+        """The same arm with a held box that leans no further than this [rad]."""
+        other = copy.copy(self)
+        other.tilt = tilt
+        return other
 
     def checker(
         self,
@@ -45,7 +55,7 @@ class Reach:
             return Checker(self.body, Hand.of(tool, folded=folded), scene, margins)
         hand = Hand.of(tool, folded=grasp.folded, held=held_box(grasp, size))
         up = np.array(grasp.box_from_flange.rotation)[2].tolist()
-        return Checker(self.body, hand, scene, margins, Upright((up[0], up[1], up[2]), TILT))
+        return Checker(self.body, hand, scene, margins, Upright((up[0], up[1], up[2]), self.tilt))
 
     def branches(self, pose: Pose, near: Array) -> Array:
         """The configurations for a pose of the flange, the nearest in time first, (k, 6)."""

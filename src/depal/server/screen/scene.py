@@ -16,6 +16,7 @@ from depal.server.screen.plan import Drawn, pile_of
 from depal.server.screen.posture import LinkPose, Turn, posture
 from depal.server.screen.words import Words, place_name
 
+ZONE = "#c2410c"
 FLOOR, WOOD, STEEL, ARM, JOINT, FIXED = (
     "#d3d7db", "#b9a88c", "#9aa1a8", "#7d868f", "#59626b", "#8b9299",
 )  # fmt: skip
@@ -81,6 +82,9 @@ class CellScene:
             self.element.text(place_name(storage.id, self._words), label).move(*before)
         for fixture in self._layout.fixtures:
             self._block(fixture.centre, fixture.size, rows(fixture.pose.rotation), FIXED)
+        for zone in self._layout.zones:
+            outline = self.element.box(*zone.solid.size, wireframe=True).material(ZONE)
+            outline.move(*zone.solid.centre).rotate_R(rows(zone.solid.pose.rotation))
 
     def _panel(self, pose: Pose, panel: OrientedBox) -> None:
         turn = _times(pose.rotation, panel.pose.rotation)

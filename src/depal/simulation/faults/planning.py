@@ -1,6 +1,7 @@
 """A mover that finds no way: the planner gives up, or nothing is in reach."""
 
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from depal.domain import CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
@@ -18,6 +19,19 @@ AGAIN = 3
 """A planner that gives up does so for this many motions."""
 
 
+@dataclass(slots=True)
+class _Trouble:
+    """What goes on now; movers for other limits share it.
+
+    Attributes:
+        left: so many motions more the planner gives up.
+        unreached: the box that nothing reaches.
+    """
+
+    left: int = 0
+    unreached: str = ""
+
+
 class FaultyMover(Mover):
     """M4: no free way is found, a few times. M3: for a while nothing reaches one box."""
 
@@ -25,8 +39,7 @@ class FaultyMover(Mover):
         """A mover of this cell that may find no way."""
         super().__init__(layout)
         self._chances = chances
-        self._left = 0
-        self._unreached = ""
+        self._trouble = _Trouble()
 
     def pick(
         self,
@@ -69,11 +82,11 @@ class FaultyMover(Mover):
         return super().show(lead, start, grasp, size, poses, scene, effort)
 
     def _gives_up(self) -> bool:
-        if self._left == 0 and self._chances.strikes("M4", Phase.PLAN) is not None:
-            self._left = AGAIN
-        if self._left == 0:
+        if self._trouble.left == 0 and self._chances.strikes("M4", Phase.PLAN) is not None:
+            self._trouble.left = AGAIN
+        if self._trouble.left == 0:
             return False
-        self._left -= 1
+        self._trouble.left -= 1
         return True
 
     def _out_of_reach(self, name: str) -> bool:
@@ -81,5 +94,5 @@ class FaultyMover(Mover):
         if lasting is None:
             if self._chances.strikes("M3", Phase.PLAN) is None:
                 return False
-            self._unreached = name
-        return name == self._unreached
+            self._trouble.unreached = name
+        return name == self._trouble.unreached
