@@ -10,6 +10,7 @@ box lost or placed twice, every request ended once, the stock as it is.
 import argparse
 import asyncio
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -119,21 +120,19 @@ async def _judged(data: Path) -> Truth:
 
 
 def one_run(
-    delivery: str, kills: int, draw: random.Random, pace: float, perception: str, tally: Tally
+    cell: Cell, delivery: str, kills: int, draw: random.Random, pace: float, tally: Tally
 ) -> None:
-    """A delivery under so many kills."""
-    with tempfile.TemporaryDirectory() as folder:
-        cell = Cell(Path(folder) / "data", pace, perception)
-        code = cell.link.split("code=")[1]
-        cell("POST", "/first-account", json={"code": code, "name": NAME, "password": PASSWORD})
-        document = document_of(read_delivery(delivery))
-        cell("POST", "/deliveries", json=document)
-        cell("POST", "/commands/start", json={})
-        wanted = [line["gtin"] for line in document["lines"][:3]]
-        for gtin in wanted:
-            cell("POST", "/requests", json={"gtin": gtin, "priority": draw.random()})
-        _through(cell, kills, draw, pace, tally)
-        _judge(cell, len(wanted), tally)
+    """A delivery under so many kills, in a cell that has just been started."""
+    code = cell.link.split("code=")[1]
+    cell("POST", "/first-account", json={"code": code, "name": NAME, "password": PASSWORD})
+    document = document_of(read_delivery(delivery))
+    cell("POST", "/deliveries", json=document)
+    cell("POST", "/commands/start", json={})
+    wanted = [line["gtin"] for line in document["lines"][:3]]
+    for gtin in wanted:
+        cell("POST", "/requests", json={"gtin": gtin, "priority": draw.random()})
+    _through(cell, kills, draw, pace, tally)
+    _judge(cell, len(wanted), tally)
 
 
 def _through(cell: Cell, kills: int, draw: random.Random, pace: float, tally: Tally) -> None:
@@ -196,6 +195,7 @@ def main() -> int:
     parser.add_argument("--delivery", default="dev-035")
     parser.add_argument("--pace", type=float, default=10.0)
     parser.add_argument("--perception", default="truth")
+    parser.add_argument("--keep", type=Path, help="the data of runs with something wrong")
     asked = parser.parse_args()
     draw, tally = random.Random(asked.seed), Tally()  # noqa: S311 - no secret
     console = Console()
@@ -204,10 +204,19 @@ def main() -> int:
         while tally.kills < asked.kills:
             count = min(PER_RUN, asked.kills - tally.kills)
             before = tally.kills
-            one_run(asked.delivery, count, draw, asked.pace, asked.perception, tally)
+            known = len(tally.wrong)
+            with tempfile.TemporaryDirectory() as folder:
+                data = Path(folder) / "data"
+                cell = Cell(data, asked.pace, asked.perception)
+                one_run(cell, asked.delivery, count, draw, asked.pace, tally)
+                if asked.keep is not None and len(tally.wrong) > known:
+                    kept = asked.keep / f"{asked.seed}-{tally.runs}"
+                    shutil.copytree(data, kept, ignore=shutil.ignore_patterns("*.sock"))
             progress.advance(bar, tally.kills - before)
+            for line in tally.wrong[known:]:
+                console.print(line, style="red", markup=False)
             if not console.is_terminal:
-                console.print(f"{tally.kills} of {asked.kills}, {len(tally.wrong)} wrong")
+                print(f"{tally.kills} of {asked.kills}", file=sys.stderr, flush=True)
             if tally.kills == before:
                 break
     console.print(
@@ -215,8 +224,6 @@ def main() -> int:
         f"{tally.taken} taken by a person, {tally.questions} questions; the sensors said "
         f"{dict(tally.found)}; {len(tally.wrong)} wrong"
     )
-    for line in tally.wrong:
-        console.print(line, style="red", markup=False)
     return int(bool(tally.wrong) or tally.kills < asked.kills)
 
 
