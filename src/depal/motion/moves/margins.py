@@ -19,6 +19,9 @@ LEAVING = ENTRY._replace(tool=0.002)
 OPEN = Margins(arm=0.03, tool=0.015, held=0.015, pile=0.015, floor=0.02)
 """In free space."""
 
+RESTING = Margins(*(margin + 0.003 for margin in OPEN))
+"""Where the arm comes to rest the next motion begins, and a servo is off by a little."""
+
 TILT = math.radians(25)
 """So far may a held box lean in free space [rad]."""
 

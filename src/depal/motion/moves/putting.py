@@ -9,7 +9,7 @@ from depal.domain import Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Scene
 from depal.motion.collision.values import Array
-from depal.motion.moves.margins import AFTER, BELOW, ENTRY, FINE, LEAVING, OPEN
+from depal.motion.moves.margins import AFTER, BELOW, ENTRY, FINE, LEAVING, OPEN, RESTING
 from depal.motion.moves.reach import Reach
 from depal.motion.moves.values import Kind, NoMotion, Part, Put
 from depal.motion.planning.free import Effort
@@ -148,6 +148,6 @@ def _retreat(reach: Reach, q: Array, berth: Berth, scene: Scene) -> Array | str:
     with_box = scene.with_case("the box", OrientedBox(berth.target, berth.size))
     folded = berth.grasp.folded
     near = reach.checker(with_box, LEAVING, folded=folded)
-    other = reach.checker(with_box, OPEN, folded=not folded)
+    other = reach.checker(with_box, RESTING, folded=not folded)
     least = round(AFTER / PITCH)
-    return reach.way_out(q, berth.outward, near, near.with_margins(OPEN), least, other)
+    return reach.way_out(q, berth.outward, near, near.with_margins(RESTING), least, other)
