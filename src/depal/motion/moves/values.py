@@ -74,7 +74,8 @@ class Put:
 
     Attributes:
         carry: to just above where it will stand.
-        descent: straight down, further than needed: it is stopped by the load.
+        descent: straight down, further than needed as long as the tool is clear: it is stopped by
+            the load.
         retreat: straight out again, empty.
     """
 
