@@ -54,6 +54,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     shaky: dict[BoxId, PickPlan] = {}
     before = desk.planner.planned
     waiting: set[BoxId] = set()
+    crowded: set[BoxId] = set()
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
         reason = why_left(work, box)
@@ -65,7 +66,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
             return Refused(doubts)
         if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
             return Refused(NO_WAY)
-        plan = shaky.get(box.id) or desk.picking.try_pick(box)
+        plan = shaky.get(box.id) or _picked(work, desk, box, crowded)
         if isinstance(plan, str):
             return Refused(plan)
         refusal = watch.refusal(box.id) if work.settings.guard else None
@@ -74,15 +75,32 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         return refusal or plan
 
     decision = select(graph, wishes, rule, grasp_for)
-    if decision.target is None and waiting:
-        decision = select(graph, wishes, rule, grasp_for)
+    for put_off in (waiting, crowded):
+        if decision.target is None and put_off:
+            decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and watch.relent(tuple(shaky)) is not None:
         decision = select(graph, wishes, rule, grasp_for)
-    chosen = decision.target
-    if chosen is not None:
-        decision = replace(decision, certificate=left_by(pile, chosen.id))
-    doubts = why_later(work, chosen) if chosen is not None else None
-    return Choice(decision, desk.planner.planned - before, doubts)
+    chosen, plans = decision.target, desk.planner.planned - before
+    if chosen is None:
+        return Choice(decision, plans)
+    decision = replace(decision, certificate=left_by(pile, chosen.id))
+    return Choice(decision, plans, why_later(work, chosen))
+
+
+def _picked(work: Workplace, desk: Desk, box: Perceived, crowded: set[BoxId]) -> PickPlan | str:
+    """A pick that keeps clear of all that neighbours may be; near to them at the second try.
+
+    Args:
+        work: of an exact sight boxes are as they look.
+        desk: plans.
+        box: which.
+        crowded: boxes that were tried; this one is added where it was tried in vain.
+    """
+    close = box.id in crowded or not work.pile.remembered
+    plan = desk.picking.try_pick(box, close=close)
+    if isinstance(plan, str) and not close:
+        crowded.add(box.id)
+    return plan
 
 
 def blocking_of(work: Workplace, desk: Desk, wishes: Sequence[Request]) -> Blocking:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from depal.cell.breadth import as_broad_as_it_may_be
 from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
@@ -15,9 +16,10 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
-from depal.geometry import Vector3
+from depal.geometry import OrientedBox, Vector3
+from depal.motion.collision import Scene
 from depal.motion.grasping import EXACT, Holding, grasps
-from depal.motion.moves import OPEN, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, Doubts, NoMotion, Part, Pick
 from depal.ports import Trajectory
 
 ROOM = 0.03
@@ -46,6 +48,7 @@ class Picking:
         first: Grasp | None = None,
         *,
         only: bool = False,
+        close: bool = True,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
 
@@ -53,6 +56,8 @@ class Picking:
             box: which.
             first: the way to hold it that is tried before all others.
             only: no other way is tried.
+            close: where there is no other way, the tool may come near to boxes that may be broader
+                than they look.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
@@ -60,15 +65,31 @@ class Picking:
         ways = [first] if first is not None else []
         if not only:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
-        scene = self._promises.scene(work.pile)
+        scene, wary = self._promises.scene(work.pile), self._wary(box)
+        rooms = tuple(dict.fromkeys((self._wide(box), self._beyond(box), EXACT)))
+        tries = [(room, wary) for room in rooms]
+        if close and wary is not None:
+            tries += [(room, None) for room in rooms]
         reason = ""
-        for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
-            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room)
+        for room, around in tries:
+            doubts = Doubts(room, around)
+            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), doubts)
             if not isinstance(found, NoMotion):
                 beyond = EXACT if room == EXACT else self._beyond(box)
                 return self._timed(box, mass, found, beyond)
             reason = str(found)
         return reason
+
+    def _wary(self, box: Perceived) -> Scene | None:
+        """What the tool keeps clear of on its way to a box; None where that is what is seen."""
+        pile, delivery = self._work.pile, self._work.delivery
+        if not pile.remembered or all(isinstance(other, Recognition) for other in pile.boxes):
+            return None
+
+        def shape_of(other: Perceived) -> OrientedBox:
+            return other.shape if other.id == box.id else as_broad_as_it_may_be(other, delivery)
+
+        return self._promises.scene(pile, shape_of=shape_of)
 
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""

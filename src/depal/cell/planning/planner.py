@@ -11,11 +11,11 @@ from depal.cell.planning.timing import Timing
 from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Grasp
-from depal.geometry import OrientedBox, Pose, Vector3
+from depal.geometry import OrientedBox, Pose
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
-from depal.motion.grasping import EXACT, Holding
-from depal.motion.moves import OPEN, Berth, Mover, NoMotion, Part, Pick, Put
+from depal.motion.grasping import Holding
+from depal.motion.moves import OPEN, SURE, Berth, Doubts, Mover, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
 T = TypeVar("T")
@@ -76,7 +76,7 @@ class Planner:
         ways: Sequence[Grasp],
         scene: Scene,
         name: str,
-        beyond: Vector3 = EXACT,
+        doubts: Doubts = SURE,
     ) -> Pick | NoMotion:
         """To a box and off what it stands on.
 
@@ -86,11 +86,11 @@ class Planner:
             ways: to hold it, best first.
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
-            beyond: how much longer the box may be along its own axes, at either end [m].
+            doubts: what is not as it looks, maybe.
         """
         effort = self._effort(self.planned + 1)
         return self._measured(
-            lambda: self.mover.pick(start, solid, ways, scene, name, effort, beyond)
+            lambda: self.mover.pick(start, solid, ways, scene, name, effort, doubts)
         )
 
     def put(self, load: Load, berth: Berth, scene: Scene) -> Put | NoMotion:

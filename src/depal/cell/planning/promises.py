@@ -6,7 +6,7 @@ from contextlib import contextmanager
 
 from depal.cell.pile import Pile
 from depal.cell.planning.plans import CarryPlan, PickPlan
-from depal.cell.planning.surroundings import Surroundings
+from depal.cell.planning.surroundings import ShapeOf, Surroundings, as_it_looks
 from depal.domain import BoxId, CellLayout, Joints, PlaceId
 from depal.geometry import OrientedBox
 from depal.logistics.placing import Books, Standing
@@ -31,9 +31,11 @@ class Promises:
         self.books = Books.empty(layout.places.values())
         self.next_start: Joints | None = None
 
-    def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
-        """Everything that stands around or will, one box left out."""
-        return self._around.scene(pile, without)
+    def scene(
+        self, pile: Pile, without: BoxId | None = None, shape_of: ShapeOf = as_it_looks
+    ) -> Scene:
+        """Everything that stands around or will, one box left out; boxes in these shapes."""
+        return self._around.scene(pile, without, shape_of)
 
     def standing(self, box: BoxId, place: PlaceId) -> OrientedBox | None:
         """A box that stands in a place, in the cell frame; None where it does not."""

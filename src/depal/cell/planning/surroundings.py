@@ -1,11 +1,11 @@
 """What the arm must not touch, as the cell believes: the scene for the planner."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
 from depal.cell.pile import Pile
-from depal.domain import BoxId, CellLayout, PlaceId
+from depal.domain import BoxId, CellLayout, Perceived, PlaceId
 from depal.geometry import OrientedBox, Pose
 from depal.logistics.placing import Spot
 from depal.motion.collision import Scene, fixed_solids
@@ -18,6 +18,14 @@ STRANGE = "something before the camera"
 
 THIN = 0.05
 """Lower columns are not worth a solid [m]."""
+
+ShapeOf = Callable[[Perceived], OrientedBox]
+"""The room that is kept clear for a box of the pile."""
+
+
+def as_it_looks(box: Perceived) -> OrientedBox:
+    """The box itself."""
+    return box.shape
 
 
 class Surroundings:
@@ -48,9 +56,11 @@ class Surroundings:
         gone = set(places)
         self._placed = {box: entry for box, entry in self._placed.items() if entry[0] not in gone}
 
-    def scene(self, pile: Pile, without: BoxId | None = None) -> Scene:
-        """Everything that stands around, one box left out."""
-        cases = [(str(box.id), box.shape) for box in pile.boxes if box.id != without]
+    def scene(
+        self, pile: Pile, without: BoxId | None = None, shape_of: ShapeOf = as_it_looks
+    ) -> Scene:
+        """Everything that stands around, one box left out; boxes of the pile in these shapes."""
+        cases = [(str(box.id), shape_of(box)) for box in pile.boxes if box.id != without]
         cases += [
             (f"what is under {box.id}", column)
             for box in pile.boxes

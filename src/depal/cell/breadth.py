@@ -1,0 +1,34 @@
+"""How broad a box may be that nobody has named: a hand that passes keeps clear of all of it."""
+
+import numpy as np
+
+from depal.cell.identity import SIZE_SPARE, plausible
+from depal.domain import Delivery, Perceived, Recognition
+from depal.geometry import OrientedBox
+
+SIDEWAYS = 0.006
+"""A box that nobody has named is seen this far off to the side [m]."""
+
+
+def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
+    """The room that a box may take beside others, of the height that it is seen in.
+
+    Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
+    was seen wrongly nobody knows. A name tells.
+
+    Args:
+        box: upright.
+        delivery: what it can be.
+    """
+    shape = box.shape
+    if isinstance(box, Recognition):
+        return shape
+    a, b, c = shape.size
+    longest = np.array((a, b))
+    for product in plausible(delivery, shape.size):
+        along, across, high = product.size
+        for way in ((along, across), (across, along)):
+            if max(abs(way[0] - a), abs(way[1] - b), abs(high - c)) <= SIZE_SPARE:
+                longest = np.maximum(longest, way)
+    width, depth = (2 * (longest + SIDEWAYS) - (a, b)).tolist()
+    return OrientedBox(shape.pose, (width, depth, c))
