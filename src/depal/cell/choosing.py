@@ -57,15 +57,13 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     crowded: set[BoxId] = set()
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
-        reason = why_left(work, box)
+        reason = why_left(work, box) or _why_barred(graph, box)
         if reason is not None:
             return Refused(reason)
         doubts = why_later(work, box)
         if doubts is not None and box.id not in waiting:
             waiting.add(box.id)
             return Refused(doubts)
-        if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
-            return Refused(NO_WAY)
         plan = shaky.get(box.id) or _picked(work, desk, box, crowded)
         if isinstance(plan, str):
             return Refused(plan)
@@ -85,6 +83,12 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         return Choice(decision, plans)
     decision = replace(decision, certificate=left_by(pile, chosen.id))
     return Choice(decision, plans, why_later(work, chosen))
+
+
+def _why_barred(graph: Blocking, box: Perceived) -> str | None:
+    """Why no way to a box is free, by the policy that asks for ways; None where one is."""
+    barred = isinstance(graph, AccessGraph) and not graph.approaches(box.id)
+    return NO_WAY if barred else None
 
 
 def _picked(work: Workplace, desk: Desk, box: Perceived, crowded: set[BoxId]) -> PickPlan | str:
