@@ -45,6 +45,9 @@ GROWN = 2
 JUMP = 0.02
 """Neighbouring depths that differ by more of themselves are of two surfaces."""
 
+SLOPE = 0.008
+"""An edge of a patch is of its surface where their depths differ by less of themselves."""
+
 CELL = 0.05
 """Edge of the columns that the rest is gathered in [m]."""
 
@@ -57,7 +60,7 @@ ABOVE = 0.04
 TALLEST = 2.2
 """No load is higher [m]."""
 
-RIM = 0.02
+RIM = 0.014
 """So much of a surface is lost at each of its edges [m]."""
 
 STEP = 0.06
@@ -126,7 +129,7 @@ def _patches(depth: Narrow, strange: Bytes) -> Flags:
         nearest = cv2.erode(np.where(patch, depth, np.float32(np.inf)), window)
         farthest = cv2.dilate(np.where(patch, depth, np.float32(0.0)), window)
         off = np.maximum(nearest - depth, depth - farthest)
-        patch = patch | ((strange > 0) & (off < JUMP * depth))
+        patch = patch | ((strange > 0) & (off < SLOPE * depth))
     return patch
 
 
