@@ -9,7 +9,8 @@ import numpy.typing as npt
 from depal.domain import PalletStand
 from depal.ports import Frame, Relief
 
-Floats = npt.NDArray[np.float64]
+Narrow = npt.NDArray[np.float32]
+Ints = npt.NDArray[np.int64]
 
 DOWN = 0.7
 """A camera looks down where its view goes down by more than this share: from the side depths err
@@ -37,10 +38,8 @@ def relief_of(frames: Sequence[Frame], stand: PalletStand) -> Relief | None:
         return None
     length, width, _ = stand.size
     shape = round(length / STEP), round(width / STEP)
-    points = np.concatenate([_points(frame, stand) for frame in down])
-    rows, columns = (np.floor(points[:, axis] / STEP).astype(int) for axis in (0, 1))
-    inside = (rows >= 0) & (rows < shape[0]) & (columns >= 0) & (columns < shape[1])
-    places, z = (rows * shape[1] + columns)[inside], points[inside, 2]
+    found = [_points(frame, stand, shape) for frame in down]
+    places, z = (np.concatenate(each) for each in zip(*found, strict=True))
     order = np.lexsort((-z, places))
     places, z = places[order], z[order]
     first = np.flatnonzero(np.diff(places, prepend=-1))
@@ -51,12 +50,16 @@ def relief_of(frames: Sequence[Frame], stand: PalletStand) -> Relief | None:
     return Relief(stand.cell_from_pallet, STEP, heights.reshape(shape))
 
 
-def _points(frame: Frame, stand: PalletStand) -> Floats:
-    """(n, 3) what a depth picture shows, in the pallet's frame [m]."""
-    depth = cv2.medianBlur(np.ascontiguousarray(frame.depth, dtype=np.float32), MIDDLE)
-    rows, columns = np.nonzero(np.asarray(depth) > 0.0)
-    z = np.asarray(depth)[rows, columns].astype(np.float64)
-    k = np.array(frame.depth_k)
-    seen = np.column_stack(((columns - k[0, 2]) / k[0, 0] * z, (rows - k[1, 2]) / k[1, 1] * z, z))
-    pose = stand.cell_from_pallet.inverse @ frame.cell_from_camera
-    return np.asarray(seen @ np.array(pose.rotation).T + np.array(pose.translation))
+def _points(frame: Frame, stand: PalletStand, shape: tuple[int, int]) -> tuple[Ints, Narrow]:
+    """The number of the place and the height [m] of every pixel that shows something over it."""
+    depth = np.asarray(cv2.medianBlur(np.ascontiguousarray(frame.depth, np.float32), MIDDLE))
+    pose, k = stand.cell_from_pallet.inverse @ frame.cell_from_camera, frame.depth_k
+    right = ((np.arange(depth.shape[1]) - k[0][2]) / k[0][0]).astype(np.float32)
+    down = ((np.arange(depth.shape[0]) - k[1][2]) / k[1][1]).astype(np.float32)[:, None]
+    x, y, z = (
+        (np.float32(a) * right + (np.float32(b) * down + np.float32(c))) * depth + np.float32(t)
+        for (a, b, c), t in zip(pose.rotation, pose.translation, strict=True)
+    )
+    row, column = np.floor(x / np.float32(STEP)), np.floor(y / np.float32(STEP))
+    over = (depth > 0.0) & (row >= 0) & (row < shape[0]) & (column >= 0) & (column < shape[1])
+    return (row[over] * shape[1] + column[over]).astype(np.int64), z[over]
