@@ -6,7 +6,7 @@ from cells_at_work import DECK, Cell
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.cell.breadth import as_broad_as_it_may_be
+from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray
 from depal.domain import (
     EURO_PALLET,
     BoxId,
@@ -76,3 +76,14 @@ def test_a_tool_keeps_clear_of_what_a_higher_neighbour_may_be(side: int) -> None
         tool = cell.desk.planner.mover.checker(scene, TOUCHING, folded=plan.grasp.folded)
         hits.append(tool.first_hit(plan.pick.approach[-1].path) is not None)
     assert hits == [True, False]
+
+
+@given(st.tuples(*[st.floats(0.0, 0.2)] * 3), st.tuples(*[st.floats(-SIDEWAYS, SIDEWAYS)] * 2))
+def test_a_box_that_is_off_to_the_side_lies_within_its_room(
+    beyond: Vector3, off: tuple[float, float]
+) -> None:
+    """However well its size is known; no higher."""
+    room = astray(beyond)
+    assert (np.array(room) >= beyond).all()
+    assert (np.abs(off) <= room[:2]).all()
+    assert room[2] == beyond[2]

@@ -4,10 +4,20 @@ import numpy as np
 
 from depal.cell.identity import SIZE_SPARE, plausible
 from depal.domain import Delivery, Perceived, Recognition
-from depal.geometry import OrientedBox
+from depal.geometry import OrientedBox, Vector3
 
-SIDEWAYS = 0.006
-"""A box that nobody has named is seen this far off to the side [m]."""
+SIDEWAYS = 0.008
+"""A box that no print has named is seen this far off to the side [m]."""
+
+
+def astray(beyond: Vector3) -> Vector3:
+    """How much farther out a box may be than it seems: no less to the side than looks err [m].
+
+    Args:
+        beyond: how much longer it may be along its own axes, at either end [m].
+    """
+    a, b, c = beyond
+    return max(a, SIDEWAYS), max(b, SIDEWAYS), c
 
 
 def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from depal.cell.breadth import as_broad_as_it_may_be
+from depal.cell.breadth import as_broad_as_it_may_be, astray
 from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
@@ -102,7 +102,7 @@ class Picking:
         work = self._work
         if isinstance(box, Recognition) or not work.pile.remembered:
             return EXACT
-        return beyond_seen(work.delivery, box.shape.size)
+        return astray(beyond_seen(work.delivery, box.shape.size))
 
     def _wide(self, box: Perceived) -> Vector3:
         """The same and the room around it that a box is taken straight out of.

@@ -3,6 +3,7 @@
 import asyncio
 from contextlib import suppress
 
+from depal.cell.breadth import astray
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
@@ -107,7 +108,7 @@ class Taking:
             return await self._let_go(plan, slipped)
         beyond = EXACT
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
-            beyond = beyond_seen(self._work.delivery, size, mass)
+            beyond = astray(beyond_seen(self._work.delivery, size, mass))
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
         return Report(((f"{box}.taken", True),))
