@@ -70,7 +70,7 @@ def test_a_tool_keeps_clear_of_what_a_higher_neighbour_may_be(side: int) -> None
     for remembered in (False, True):
         seen = (box, Detection(BoxId("b2"), beside))
         cell.work.pile.see(View(0.0, seen, remembered=remembered))
-        plan = cell.desk.picking.try_pick(box, close=False)
+        plan = cell.desk.picking.try_pick(box)
         assert not isinstance(plan, str)
         scene = Scene.of([], [("b2", true)])
         tool = cell.desk.planner.mover.checker(scene, TOUCHING, folded=plan.grasp.folded)

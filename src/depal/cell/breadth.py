@@ -9,15 +9,19 @@ from depal.geometry import OrientedBox, Vector3
 SIDEWAYS = 0.008
 """A box that no print has named is seen this far off to the side [m]."""
 
+UPRIGHT = 0.02
+"""And one of which nobody has seen an edge so far up or down [m]."""
 
-def astray(beyond: Vector3) -> Vector3:
-    """How much farther out a box may be than it seems: no less to the side than looks err [m].
+
+def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
+    """How much farther out a box may be than it seems: no less than looks err [m].
 
     Args:
         beyond: how much longer it may be along its own axes, at either end [m].
+        unsized: whether an edge of it is a guess: then so is where it ends below.
     """
     a, b, c = beyond
-    return max(a, SIDEWAYS), max(b, SIDEWAYS), c
+    return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
 
 
 def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:

@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.apart import standing_apart
+from depal.cell.half_seen import may_reach_behind
 from depal.cell.identity import plausible
 from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
@@ -157,11 +159,27 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
         return TRIED
     if is_laden(box.shape, work.pile.obstacles):
         return LADEN
+    if work.pile.remembered and is_half_seen(work, box):
+        return HALF_SEEN
     if isinstance(box, Recognition):
         return None
     if box.id in work.pile.unsized:
         return GUESSED
     return FRESH if work.pile.is_fresh(box.id) else None
+
+
+def is_half_seen(work: Workplace, box: Perceived) -> bool:
+    """Whether a box may be a broader one, of which something before it hides the rest."""
+    pile, layout = work.pile, work.layout
+    named = work.delivery.products.get(box.gtin) if isinstance(box, Recognition) else None
+    products = (named,) if named else plausible(work.delivery, box.shape.size)
+    return may_reach_behind(
+        box.shape,
+        {edge for product in products for edge in product.size[:2]},
+        pallet_front(layout.pallet),
+        [*(other.shape for other in pile.boxes if other.id != box.id), *pile.obstacles],
+        [camera.cell_from_camera.translation for camera in layout.cameras],
+    )
 
 
 def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
@@ -184,8 +202,9 @@ UNSEEN, ODD = "the last look did not show it", "no product of the note has its s
 GAVE_UP = "no free way"
 """How a motion's reason begins where the search for it has come to its limit."""
 
-LADEN, GUESSED, FRESH, TRIED = (
+LADEN, HALF_SEEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",
+    "what stands before it may hide a part of it",
     "one of its edges is a guess",
     "only the last look has shown it",
     "it was tried in vain",

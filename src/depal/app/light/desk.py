@@ -107,7 +107,7 @@ class LightPicking(Picking):
         first: Grasp | None = None,
         *,
         only: bool = False,
-        close: bool = True,
+        close: bool = False,
     ) -> PickPlan | str:
         """A pick from where the arm will be next, or that there is none."""
         del first, only, close

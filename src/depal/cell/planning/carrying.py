@@ -86,7 +86,7 @@ class Carrying:
             fits = grasp != kept.grasp and any(
                 self._spots(replace(load, grasp=grasp), place, 1) for place in self._open(places)
             )
-            other = self._picking.try_pick(seen, grasp, only=True, close=False) if fits else ""
+            other = self._picking.try_pick(seen, grasp, only=True) if fits else ""
             if isinstance(other, str):
                 continue
             self._promises.keep_pick(other)

@@ -49,7 +49,7 @@ class Picking:
         first: Grasp | None = None,
         *,
         only: bool = False,
-        close: bool = True,
+        close: bool = False,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
 
@@ -57,8 +57,8 @@ class Picking:
             box: which.
             first: the way to hold it that is tried before all others.
             only: no other way is tried.
-            close: where there is no other way, the tool may come near to what is measured higher,
-                and to boxes that may be broader than they look.
+            close: whether the tool may come near to what is measured higher, and to boxes that may
+                be broader than they look.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
@@ -66,14 +66,11 @@ class Picking:
         ways = [first] if first is not None else []
         if not only:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
-        scene, wary = self._promises.scene(work.pile), self._wary(box)
+        scene, wary = self._promises.scene(work.pile), None if close else self._wary(box)
         rooms = tuple(dict.fromkeys((self._wide(box), self._beyond(box), EXACT)))
-        tries = [(room, wary) for room in rooms]
-        if close and wary is not None:
-            tries += [(room, None) for room in rooms]
         reason = ""
-        for room, around in tries:
-            doubts = Doubts(room, around)
+        for room in rooms:
+            doubts = Doubts(room, wary)
             found = self._planner.pick(start, box.shape, ways, scene, str(box.id), doubts)
             if not isinstance(found, NoMotion):
                 beyond = EXACT if room == EXACT else self._beyond(box)
@@ -102,7 +99,9 @@ class Picking:
         work = self._work
         if isinstance(box, Recognition) or not work.pile.remembered:
             return EXACT
-        return astray(beyond_seen(work.delivery, box.shape.size))
+        return astray(
+            beyond_seen(work.delivery, box.shape.size), unsized=box.id in work.pile.unsized
+        )
 
     def _wide(self, box: Perceived) -> Vector3:
         """The same and the room around it that a box is taken straight out of.
@@ -177,7 +176,10 @@ class Picking:
             return kept
         before = planner.planned
         promises.next_start = None
-        plan = self.try_pick(seen, first=None if kept is None else kept.grasp)
+        first = None if kept is None else kept.grasp
+        plan = self.try_pick(seen, first)
+        if isinstance(plan, str) and self._work.pile.remembered:
+            plan = self.try_pick(seen, first, close=True)
         await planner.charge(planner.planned - before)
         if not isinstance(plan, str):
             if kept is not None and plan.grasp != kept.grasp:

@@ -120,7 +120,7 @@ class Checking:
             return self._refuse(box, too_many)
         size, beyond = told_size(product.size, held.size)
         if work.pile.remembered:  # what it is does not tell where it was
-            beyond = astray(beyond)
+            beyond = astray(beyond, unsized=held.beyond[2] > 0.0)
         grasp = resized(held.grasp, held.size, size)
         work.held = replace(held, size=size, grasp=grasp, beyond=beyond)
         work.steps(Phase.HELD)

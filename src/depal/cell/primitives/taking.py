@@ -108,7 +108,8 @@ class Taking:
             return await self._let_go(plan, slipped)
         beyond = EXACT
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
-            beyond = astray(beyond_seen(self._work.delivery, size, mass))
+            unsized = box in self._work.pile.unsized
+            beyond = astray(beyond_seen(self._work.delivery, size, mass), unsized=unsized)
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
         return Report(((f"{box}.taken", True),))
