@@ -11,7 +11,7 @@ from depal.geometry import OrientedBox, Pose, Vector3
 from depal.perception.faces import SeenBox
 from depal.perception.memory import Memory, Remembered
 from depal.perception.memory.anchors import resized_at_its_face
-from depal.ports import Relief, View
+from depal.ports import View
 
 MISSED = 20
 """So many looks in a row may miss a box, behind the arm say, before it is believed to be gone."""
@@ -66,9 +66,9 @@ class Pile:
         Args:
             deck: what the boxes stand on, where it is known.
 
-        `hidden`, `unsized`, `obstacles` and `relief` are those of the last look; `remembered` is
-        whether the sight has a memory of its own: such a sight measures with cameras, and errs;
-        `bared` are boxes that have left since: what stands below them nobody has seen yet.
+        `hidden`, `unsized` and `obstacles` are those of the last look; `remembered` is whether the
+        sight has a memory of its own: such a sight measures with cameras, and errs; `bared` are
+        boxes that have left since: what stands below them nobody has seen yet.
         """
         self._deck = deck
         self._memory = Memory(patience=MISSED)
@@ -83,7 +83,6 @@ class Pile:
         self.hidden: frozenset[BoxId] = frozenset()
         self.unsized: frozenset[BoxId] = frozenset()
         self.obstacles: tuple[OrientedBox, ...] = ()
-        self.relief: Relief | None = None
         self.bared: dict[BoxId, OrientedBox] = {}
 
     def see(self, view: View) -> None:
@@ -98,7 +97,7 @@ class Pile:
             self._boxes, self.remembered = found, True
             self.hidden, self.unsized = view.hidden, view.unsized
             if view.obstacles is not None:
-                self.obstacles, self.relief = view.obstacles, view.relief
+                self.obstacles = view.obstacles
             return
         named = [(box.id, seen_as(box)) for box in found.values()]
         self._memory = self._memory.told(named, view.taken)

@@ -17,7 +17,7 @@ from depal.ports.devices import (
     Watch,
 )
 from depal.ports.people import TAKEN, Movement, Person, Question, StoreSystem
-from depal.ports.sight import Relief, Sight, View
+from depal.ports.sight import Sight, View
 from depal.ports.trajectory import Trajectory
 
 __all__ = [
@@ -36,7 +36,6 @@ __all__ = [
     "Override",
     "Person",
     "Question",
-    "Relief",
     "Safety",
     "SafetyState",
     "Sight",

@@ -3,26 +3,8 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-import numpy.typing as npt
-
 from depal.domain import BoxId, Perceived
-from depal.geometry import OrientedBox, Pose
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Relief:
-    """How high what a look has measured reaches, on a grid over the pallet.
-
-    Attributes:
-        cell_from_grid: its frame: x along the rows' numbers, y along the columns', z up.
-        step: edge of a place [m].
-        heights: (rows, columns) above the frame's plane [m]; nan where nothing was measured.
-    """
-
-    cell_from_grid: Pose
-    step: float
-    heights: npt.NDArray[np.float64]
+from depal.geometry import OrientedBox
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +22,6 @@ class View:
         moved: boxes that this look shows elsewhere than those before.
         obstacles: solids where something stands that no box explains, in the cell frame; None
             where this look cannot tell.
-        relief: how high what it has measured reaches, whatever it is; None where it cannot tell.
     """
 
     taken: float
@@ -50,7 +31,6 @@ class View:
     unsized: frozenset[BoxId] = frozenset()
     moved: frozenset[BoxId] = frozenset()
     obstacles: tuple[OrientedBox, ...] | None = ()
-    relief: Relief | None = None
 
 
 class Sight(Protocol):

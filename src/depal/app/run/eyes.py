@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import chain
 
 from depal.app.run.values import Job
-from depal.cell.sight import CameraSight, Eyes, extended_by, relief_of, unexplained
+from depal.cell.sight import CameraSight, Eyes, extended_by, unexplained
 from depal.domain import CameraMount, CellLayout, DeliveryLine, Product
 from depal.executive.clock import Clock
 from depal.geometry import OrientedBox
@@ -18,7 +18,7 @@ from depal.perception.observing import Known, Observation, Observer
 from depal.perception.pictures import PictureBook
 from depal.perception.rasters import Region
 from depal.perception.recognition import Gallery, gallery_of
-from depal.ports import Camera, Frame, Relief
+from depal.ports import Camera, Frame
 from depal.simulation.cell import SimulatedCell
 from depal.simulation.imaging.photographs import book_of
 
@@ -43,7 +43,7 @@ class Observing:
 
     def eyes(self) -> Eyes:
         """For the cell's sight."""
-        return Eyes(self.perceive, self.rest, self.check, self.learn, self.relief)
+        return Eyes(self.perceive, self.rest, self.check, self.learn)
 
     def perceive(
         self,
@@ -66,10 +66,6 @@ class Observing:
     ) -> tuple[OrientedBox, ...]:
         """What none of these boxes explains."""
         return unexplained(self._true(frames), boxes, self._layout.pallet)
-
-    def relief(self, frames: Sequence[Frame]) -> Relief | None:
-        """How high what is there reaches."""
-        return relief_of(self._true(frames), self._layout.pallet)
 
     def learn(
         self, book: PictureBook, product: Product, faces: Sequence[Face], frames: Sequence[Frame]

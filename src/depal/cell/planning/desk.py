@@ -46,8 +46,7 @@ class Picks(Protocol):
 
         Args:
             box: which.
-            close: whether the tool may come near to what is measured higher, and to boxes that may
-                be broader than they look.
+            close: whether the tool may come near to boxes that may be broader than they look.
         """
         ...
 

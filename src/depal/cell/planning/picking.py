@@ -14,7 +14,6 @@ from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
-from depal.cell.planning.towers import towers
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox, Vector3
@@ -57,8 +56,7 @@ class Picking:
             box: which.
             first: the way to hold it that is tried before all others.
             only: no other way is tried.
-            close: whether the tool may come near to what is measured higher, and to boxes that may
-                be broader than they look.
+            close: whether the tool may come near to boxes that may be broader than they look.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
@@ -81,18 +79,13 @@ class Picking:
     def _wary(self, box: Perceived) -> Scene | None:
         """What the tool keeps clear of on its way to a box; None where that is what is seen."""
         pile, delivery = self._work.pile, self._work.delivery
-        if not pile.remembered:
-            return None
-        higher: tuple[OrientedBox, ...] = ()
-        if pile.relief is not None:
-            higher = towers(pile.relief, box.shape, pile.bared.values())
-        if not higher and all(isinstance(other, Recognition) for other in pile.boxes):
+        if not pile.remembered or all(isinstance(other, Recognition) for other in pile.boxes):
             return None
 
         def shape_of(other: Perceived) -> OrientedBox:
             return other.shape if other.id == box.id else as_broad_as_it_may_be(other, delivery)
 
-        return self._promises.scene(pile, shape_of=shape_of, more=higher)
+        return self._promises.scene(pile, shape_of=shape_of)
 
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""

@@ -1,7 +1,7 @@
 """What is planned and not yet done: kept picks, promised spots, and where the arm will be."""
 
 import asyncio
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 
 from depal.cell.pile import Pile
@@ -32,14 +32,10 @@ class Promises:
         self.next_start: Joints | None = None
 
     def scene(
-        self,
-        pile: Pile,
-        without: BoxId | None = None,
-        shape_of: ShapeOf = as_it_looks,
-        more: Sequence[OrientedBox] = (),
+        self, pile: Pile, without: BoxId | None = None, shape_of: ShapeOf = as_it_looks
     ) -> Scene:
-        """Everything that stands around or will, and more; see `Surroundings`."""
-        return self._around.scene(pile, without, shape_of, more)
+        """Everything that stands around or will, one box left out; boxes in these shapes."""
+        return self._around.scene(pile, without, shape_of)
 
     def standing(self, box: BoxId, place: PlaceId) -> OrientedBox | None:
         """A box that stands in a place, in the cell frame; None where it does not."""

@@ -1,6 +1,6 @@
 """What the arm must not touch, as the cell believes: the scene for the planner."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 
 import numpy as np
 
@@ -15,9 +15,6 @@ SEAM = 0.01
 
 STRANGE = "something before the camera"
 """What a look shows and no box explains is called so."""
-
-MEASURED = "something higher"
-"""What is measured higher than a box beside it is called so."""
 
 THIN = 0.05
 """Lower columns are not worth a solid [m]."""
@@ -60,20 +57,9 @@ class Surroundings:
         self._placed = {box: entry for box, entry in self._placed.items() if entry[0] not in gone}
 
     def scene(
-        self,
-        pile: Pile,
-        without: BoxId | None = None,
-        shape_of: ShapeOf = as_it_looks,
-        more: Sequence[OrientedBox] = (),
+        self, pile: Pile, without: BoxId | None = None, shape_of: ShapeOf = as_it_looks
     ) -> Scene:
-        """Everything that stands around, and more.
-
-        Args:
-            pile: what stands on the pallet.
-            without: a box that is left out.
-            shape_of: the room that is kept clear for each box of the pile.
-            more: solids around what was measured, whatever it is.
-        """
+        """Everything that stands around, one box left out; boxes of the pile in these shapes."""
         cases = [(str(box.id), shape_of(box)) for box in pile.boxes if box.id != without]
         cases += [
             (f"what is under {box.id}", column)
@@ -86,7 +72,6 @@ class Surroundings:
             if (column := self._column(shape)) is not None
         ]
         cases += [(f"{STRANGE} {k}", solid) for k, solid in enumerate(pile.obstacles)]
-        cases += [(f"{MEASURED} {k}", solid) for k, solid in enumerate(more)]
         cases += [
             (f"what is under {STRANGE} {k}", column)
             for k, solid in enumerate(pile.obstacles)

@@ -2,7 +2,6 @@
 
 from depal.cell.sight.camera_sight import CameraSight, Eyes
 from depal.cell.sight.learning import extended_by
-from depal.cell.sight.relief import relief_of
 from depal.cell.sight.unexplained import unexplained
 
-__all__ = ["CameraSight", "Eyes", "extended_by", "relief_of", "unexplained"]
+__all__ = ["CameraSight", "Eyes", "extended_by", "unexplained"]

@@ -15,7 +15,7 @@ from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look
 from depal.perception.memory import Memory, tally_of
 from depal.perception.pictures import PictureBook
-from depal.ports import Camera, Clock, Frame, Relief, View
+from depal.ports import Camera, Clock, Frame, View
 
 Perceive = Callable[
     [
@@ -44,10 +44,6 @@ Rest = Callable[[Sequence[Frame], Sequence[OrientedBox]], tuple[OrientedBox, ...
 """Solids where something stands in the frames of a look that none of these boxes explains."""
 
 
-Rising = Callable[[Sequence[Frame]], Relief | None]
-"""How high what the frames of a look measure reaches."""
-
-
 Compute = Callable[..., Awaitable[Look]]
 """Calls what perceives with its arguments: on the event loop, or beside it."""
 
@@ -66,10 +62,6 @@ def no_problem(_frames: Sequence[Frame], _at: float) -> tuple[str, ...]:
     return ()
 
 
-def nothing_measured(_frames: Sequence[Frame]) -> None:
-    """Eyes that measure no heights."""
-
-
 def nothing_learned(
     book: PictureBook, _product: Product, _faces: Sequence[Face], _frames: Sequence[Frame]
 ) -> PictureBook:
@@ -86,14 +78,12 @@ class Eyes:
         rest: finds what the boxes do not explain.
         check: finds what is wrong with the frames; nothing is made of frames that are.
         learn: extends the picture book.
-        relief: tells how high what is there reaches, whatever it is.
     """
 
     perceive: Perceive
     rest: Rest
     check: Check = no_problem
     learn: Learn = nothing_learned
-    relief: Rising = nothing_measured
 
 
 class CameraSight:
@@ -197,10 +187,9 @@ class CameraSight:
 
     def _view(self, taken: float) -> View:
         memory = self.memory
-        rest = relief = None
+        rest = None
         if not self._covered():
             rest = self._eyes.rest(self.frames, [box.seen.shape for box in memory])
-            relief = self._eyes.relief(self.frames)
         return View(
             taken,
             tuple(perceived(box, self._note) for box in memory),
@@ -209,7 +198,6 @@ class CameraSight:
             unsized=frozenset(box.name for box in memory if not box.seen.sized),
             moved=memory.moved,
             obstacles=rest,
-            relief=relief,
         )
 
     def _forget_taken(self) -> None:
