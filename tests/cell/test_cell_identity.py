@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from depal.cell.identity import (
     beyond_seen,
     fits,
+    looks_like_two,
     may_be_two,
     plausible,
     size_by_weight,
@@ -194,3 +195,29 @@ def test_what_weighs_like_its_product_is_one_box_and_what_weighs_like_two_is_two
 def test_where_nobody_knows_what_a_box_can_be_its_weight_tells_nothing(mass: float) -> None:
     """No product fits it."""
     assert not may_be_two((), note(product((0.3, 0.2, 0.2), mass)), 2 * mass)
+
+
+@given(sizes, st.integers(0, 2), st.floats(0.5, 10.0), st.floats(-0.02, 0.02))
+def test_two_cases_flush_beside_each_other_look_like_two_and_weigh_so(
+    size: Vector3, axis: int, mass: float, error: float
+) -> None:
+    """Along any axis, one edge taken over from another product; never by less than two cases."""
+    one = product(size, mass)
+    seen = [*size]
+    seen[axis] *= 2
+    seen[(axis + 1) % 3] += 0.1  # an edge that is not what it looks like
+    seen[(axis + 2) % 3] += error
+    twice = Delivery("d", EURO_PALLET, (DeliveryLine(one, 2),))
+    assert looks_like_two(twice, tuple(seen), 2 * mass * (1 + error))  # type: ignore[arg-type]
+    assert not looks_like_two(note(one), tuple(seen), 2 * mass)  # type: ignore[arg-type]
+
+
+def test_two_low_cartons_that_were_taken_for_one_high_one_are_told_by_their_weight() -> None:
+    """Of a delivery: neither can be that one alone, and so its weight is no doubt of its own."""
+    low, high = product((0.174, 0.167, 0.179), 1.516, "low"), product((0.328, 0.177, 0.21), 3.751)
+    delivery = Delivery("d", EURO_PALLET, (DeliveryLine(low, 9), DeliveryLine(high, 9)))
+    seen = (0.177, 0.328, 0.21)
+    assert not may_be_two((high,), delivery, 3.1)
+    assert looks_like_two(delivery, seen, 3.1)
+    assert not looks_like_two(delivery, seen, high.mass)
+    assert not looks_like_two(delivery, (0.25, 0.25, 0.21), 3.1)

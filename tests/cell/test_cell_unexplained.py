@@ -3,6 +3,8 @@
 import numpy as np
 import numpy.typing as npt
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from depal.cell.files import shipped_cell
 from depal.cell.sight import unexplained
@@ -97,3 +99,18 @@ def test_a_box_that_was_missed_behind_another_is_seen_from_above() -> None:
     assert (low[0], high[0]) == pytest.approx((1.77, 1.872), abs=0.04)
     assert (low[1], high[1]) == pytest.approx((-0.2, 0.2), abs=0.04)
     assert high[2] == pytest.approx(DECK + 0.3, abs=0.03)
+
+
+@given(st.floats(1.56, 1.85), st.floats(-0.3, 0.3), st.floats(0.12, 0.3), st.floats(0.12, 0.3))
+def test_all_of_a_top_that_nothing_explains_lies_in_obstacles(
+    x: float, y: float, depth: float, width: float
+) -> None:
+    """To its corners, within 5 mm: where an edge is cut off, a tool hits it."""
+    missed = box(x, y, (depth, width, 0.25))
+    found = unexplained([from_above([missed], 0.002)], [], CELL.pallet)
+    lower = np.array([solid.corners.min(axis=0) for solid in found])
+    upper = np.array([solid.corners.max(axis=0) for solid in found])
+    for corner in missed.corners[missed.corners[:, 2] > missed.centre[2]]:
+        below = corner - (0.0, 0.0, 0.01)
+        off = np.maximum(np.maximum(lower - below, below - upper), 0.0).max(axis=1).min()
+        assert off < 0.005

@@ -5,9 +5,11 @@ from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.apart import standing_apart
+from depal.cell.half_seen import may_reach_behind
 from depal.cell.identity import plausible
 from depal.cell.laden import is_laden
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
@@ -54,18 +56,17 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     shaky: dict[BoxId, PickPlan] = {}
     before = desk.planner.planned
     waiting: set[BoxId] = set()
+    crowded: set[BoxId] = set()
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
-        stays = _stays(work, box, firmness)
+        stays = _stays(work, graph, box, firmness)
         if stays is not None:
             return stays
         doubts = why_later(work, box)
         if doubts is not None and box.id not in waiting:
             waiting.add(box.id)
             return Refused(doubts)
-        if isinstance(graph, AccessGraph) and not graph.approaches(box.id):
-            return Refused(NO_WAY)
-        plan = shaky.get(box.id) or desk.picking.try_pick(box)
+        plan = shaky.get(box.id) or _picked(work, desk, box, crowded)
         if isinstance(plan, str):
             return Refused(plan)
         refusal = watch.refusal(box.id) if work.settings.guard else None
@@ -74,20 +75,43 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         return refusal or plan
 
     decision = select(graph, wishes, rule, grasp_for)
-    if decision.target is None and waiting:
-        decision = select(graph, wishes, rule, grasp_for)
+    for put_off in (waiting, crowded):
+        if decision.target is None and put_off:
+            decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and watch.relent(tuple(shaky)) is not None:
         decision = select(graph, wishes, rule, grasp_for)
-    chosen = decision.target
-    if chosen is not None:
-        decision = replace(decision, certificate=left_by(pile, chosen.id))
-    doubts = why_later(work, chosen) if chosen is not None else None
-    return Choice(decision, desk.planner.planned - before, doubts)
+    chosen, plans = decision.target, desk.planner.planned - before
+    if chosen is None:
+        return Choice(decision, plans)
+    decision = replace(decision, certificate=left_by(pile, chosen.id))
+    return Choice(decision, plans, why_later(work, chosen))
 
 
-def _stays(work: Workplace, box: Perceived, firmness: Firmness) -> Refused | None:
+def _why_barred(graph: Blocking, box: Perceived) -> str | None:
+    """Why no way to a box is free, by the policy that asks for ways; None where one is."""
+    barred = isinstance(graph, AccessGraph) and not graph.approaches(box.id)
+    return NO_WAY if barred else None
+
+
+def _picked(work: Workplace, desk: Desk, box: Perceived, crowded: set[BoxId]) -> PickPlan | str:
+    """A pick that keeps clear of all that neighbours may be; near to them at the second try.
+
+    Args:
+        work: of an exact sight boxes are as they look.
+        desk: plans.
+        box: which.
+        crowded: boxes that were tried; this one is added where it was tried in vain.
+    """
+    close = box.id in crowded or not work.pile.remembered
+    plan = desk.picking.try_pick(box, close=close)
+    if isinstance(plan, str) and not close:
+        crowded.add(box.id)
+    return plan
+
+
+def _stays(work: Workplace, graph: Blocking, box: Perceived, firmness: Firmness) -> Refused | None:
     """Why a box is not to be taken now; None where it may be."""
-    reason = why_left(work, box)
+    reason = why_left(work, box) or _why_barred(graph, box)
     return firmness.refusal(box.id) if reason is None else Refused(reason)
 
 
@@ -141,11 +165,27 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
         return TRIED
     if is_laden(box.shape, work.pile.obstacles):
         return LADEN
+    if work.pile.remembered and is_half_seen(work, box):
+        return HALF_SEEN
     if isinstance(box, Recognition):
         return None
     if box.id in work.pile.unsized:
         return GUESSED
     return FRESH if work.pile.is_fresh(box.id) else None
+
+
+def is_half_seen(work: Workplace, box: Perceived) -> bool:
+    """Whether a box may be a broader one, of which something before it hides the rest."""
+    pile, layout = work.pile, work.layout
+    named = work.delivery.products.get(box.gtin) if isinstance(box, Recognition) else None
+    products = (named,) if named else plausible(work.delivery, box.shape.size)
+    return may_reach_behind(
+        box.shape,
+        {edge for product in products for edge in product.size[:2]},
+        pallet_front(layout.pallet),
+        [*(other.shape for other in pile.boxes if other.id != box.id), *pile.obstacles],
+        [camera.cell_from_camera.translation for camera in layout.cameras],
+    )
 
 
 def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
@@ -168,8 +208,9 @@ UNSEEN, ODD = "the last look did not show it", "no product of the note has its s
 GAVE_UP = "no free way"
 """How a motion's reason begins where the search for it has come to its limit."""
 
-LADEN, GUESSED, FRESH, TRIED = (
+LADEN, HALF_SEEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",
+    "what stands before it may hide a part of it",
     "one of its edges is a guess",
     "only the last look has shown it",
     "it was tried in vain",

@@ -81,8 +81,44 @@ def may_be_two(products: Collection[Product], delivery: Delivery, mass: float) -
     if any(weighs_like(product, mass) for product in products):
         return False
     others = delivery.products.values()
-    pairs = (one.mass + other.mass for one in products for other in others)
-    return any(abs(mass - both) <= MASS_SHARE * both + MASS_SPARE for both in pairs)
+    return any(_weigh_together(one, other, mass) for one in products for other in others)
+
+
+def looks_like_two(delivery: Delivery, size: Vector3, mass: float) -> bool:
+    """Whether two boxes of the note, flush beside or on each other, look like one and weigh so.
+
+    One edge may be off by any amount: a box that is seen takes over the size of a product.
+
+    Args:
+        delivery: whose boxes they can be.
+        size: of the one box that was seen [m].
+        mass: as felt [kg].
+    """
+    counts = {line.product.gtin: line.count for line in delivery.lines}
+    pairs = itertools.combinations_with_replacement(delivery.products.values(), 2)
+    return any(
+        _weigh_together(one, other, mass) and _joined(one.size, other.size, size)
+        for one, other in pairs
+        if one is not other or counts[one.gtin] > 1
+    )
+
+
+def _weigh_together(one: Product, other: Product, mass: float) -> bool:
+    both = one.mass + other.mass
+    return abs(mass - both) <= MASS_SHARE * both + MASS_SPARE
+
+
+def _joined(one: Vector3, other: Vector3, size: Vector3) -> bool:
+    """Whether two upright cases that stand flush can be seen as a box of a size [m]."""
+    seen = np.array(size)
+    for first, second in itertools.product(_ways(one), _ways(other)):
+        for axis in range(EDGES):
+            both = np.maximum(first, second)
+            both[axis] = first[axis] + second[axis]
+            alike = np.abs(np.delete(np.subtract(first, second), axis)).max() <= SIZE_SPARE
+            if alike and sorted(np.abs(both - seen))[EDGES - 2] <= SIZE_SPARE:
+                return True
+    return False
 
 
 def size_by_weight(delivery: Delivery, size: Vector3, mass: float) -> Vector3 | None:

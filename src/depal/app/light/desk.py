@@ -102,10 +102,15 @@ class LightPicking(Picking):
         self._refuses = refuses
 
     def try_pick(
-        self, box: Perceived, first: Grasp | None = None, *, only: bool = False
+        self,
+        box: Perceived,
+        first: Grasp | None = None,
+        *,
+        only: bool = False,
+        close: bool = False,
     ) -> PickPlan | str:
         """A pick from where the arm will be next, or that there is none."""
-        del first, only
+        del first, only, close
         work = self._work
         self._planner.planned += 1
         if self._refuses(box.id, len(work.pile)):

@@ -3,9 +3,11 @@
 import asyncio
 import math
 from collections.abc import Iterator
+from collections.abc import Set as AbstractSet
 
 import numpy as np
 
+from depal.cell.breadth import as_broad_as_it_may_be, astray
 from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
@@ -16,10 +18,10 @@ from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.rules import TAKING, Rules, rules_on
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
-from depal.geometry import Vector3
+from depal.geometry import OrientedBox, Vector3
 from depal.motion.collision import Scene
 from depal.motion.grasping import EXACT, Holding, grasps
-from depal.motion.moves import OPEN, NoMotion, Part, Pick
+from depal.motion.moves import OPEN, Doubts, NoMotion, Part, Pick
 from depal.ports import Trajectory
 
 ROOM = 0.03
@@ -48,6 +50,7 @@ class Picking:
         first: Grasp | None = None,
         *,
         only: bool = False,
+        close: bool = False,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
 
@@ -55,6 +58,7 @@ class Picking:
             box: which.
             first: the way to hold it that is tried before all others.
             only: no other way is tried.
+            close: whether the tool may come near to boxes that may be broader than they look.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
@@ -64,24 +68,39 @@ class Picking:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
         rules = rules_on(work.engine, box.id, TAKING)
         scene = self._promises.scene(work.pile, zones=rules.zones)
+        wary = None if close else self._wary(box, rules.zones)
         stands = self._planner.why_no_start(start, scene) if rules.zones else ""
         if stands:
             return stands
         reason = ""
         for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
-            found = self._planner.pick(start, box.shape, ways, scene, str(box.id), room, rules.tilt)
+            doubts, name = Doubts(room, wary), str(box.id)
+            found = self._planner.pick(start, box.shape, ways, scene, name, doubts, rules.tilt)
             if not isinstance(found, NoMotion):
                 beyond = EXACT if room == EXACT else self._beyond(box)
                 return self._timed(box, mass, found, scene, rules, beyond)
             reason = str(found)
         return rules.after(reason)
 
+    def _wary(self, box: Perceived, zones: AbstractSet[str]) -> Scene | None:
+        """What the tool keeps clear of on its way to a box; None where that is what is seen."""
+        pile, delivery = self._work.pile, self._work.delivery
+        if not pile.remembered or all(isinstance(other, Recognition) for other in pile.boxes):
+            return None
+
+        def shape_of(other: Perceived) -> OrientedBox:
+            return other.shape if other.id == box.id else as_broad_as_it_may_be(other, delivery)
+
+        return self._promises.scene(pile, zones=zones, shape_of=shape_of)
+
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
         work = self._work
         if isinstance(box, Recognition) or not work.pile.remembered:
             return EXACT
-        return beyond_seen(work.delivery, box.shape.size)
+        return astray(
+            beyond_seen(work.delivery, box.shape.size), unsized=box.id in work.pile.unsized
+        )
 
     def _wide(self, box: Perceived) -> Vector3:
         """The same and the room around it that a box is taken straight out of.
@@ -166,7 +185,10 @@ class Picking:
             return kept
         before = planner.planned
         promises.next_start = None
-        plan = self.try_pick(seen, first=None if kept is None else kept.grasp)
+        first = None if kept is None else kept.grasp
+        plan = self.try_pick(seen, first)
+        if isinstance(plan, str) and self._work.pile.remembered:
+            plan = self.try_pick(seen, first, close=True)
         await planner.charge(planner.planned - before)
         if not isinstance(plan, str):
             if kept is not None and plan.grasp != kept.grasp:

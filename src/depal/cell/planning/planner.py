@@ -12,11 +12,22 @@ from depal.cell.planning.timing import Timing
 from depal.cell.timekeeping import PLANNING, Timekeeper
 from depal.cell.workplace import Workplace
 from depal.domain import Grasp
-from depal.geometry import OrientedBox, Pose, Vector3
+from depal.geometry import OrientedBox, Pose
 from depal.motion.collision import Checker, Scene
 from depal.motion.collision.values import Array
-from depal.motion.grasping import EXACT, Holding
-from depal.motion.moves import CLOSE, OPEN, Berth, Mover, NoMotion, Part, Pick, Put
+from depal.motion.grasping import Holding
+from depal.motion.moves import (
+    CLOSE,
+    OPEN,
+    SURE,
+    Berth,
+    Doubts,
+    Mover,
+    NoMotion,
+    Part,
+    Pick,
+    Put,
+)
 from depal.motion.planning.free import Effort
 
 T = TypeVar("T")
@@ -77,7 +88,7 @@ class Planner:
         ways: Sequence[Grasp],
         scene: Scene,
         name: str,
-        beyond: Vector3 = EXACT,
+        doubts: Doubts = SURE,
         tilt: float = math.inf,
     ) -> Pick | NoMotion:
         """To a box and off what it stands on.
@@ -88,11 +99,11 @@ class Planner:
             ways: to hold it, best first.
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
-            beyond: how much longer the box may be along its own axes, at either end [m].
+            doubts: what is not as it looks, maybe.
             tilt: how far the box may lean once it is held [rad].
         """
         effort, mover = self._effort(self.planned + 1), self.mover.leaning(tilt)
-        return self._measured(lambda: mover.pick(start, solid, ways, scene, name, effort, beyond))
+        return self._measured(lambda: mover.pick(start, solid, ways, scene, name, effort, doubts))
 
     def put(self, load: Load, berth: Berth, scene: Scene) -> Put | NoMotion:
         """With a box into a place and out again."""

@@ -7,7 +7,7 @@ from contextlib import contextmanager
 
 from depal.cell.pile import Pile
 from depal.cell.planning.plans import CarryPlan, PickPlan
-from depal.cell.planning.surroundings import Surroundings
+from depal.cell.planning.surroundings import ShapeOf, Surroundings, as_it_looks
 from depal.domain import BoxId, CellLayout, Joints, PlaceId
 from depal.geometry import OrientedBox
 from depal.logistics.placing import Books, Standing
@@ -33,10 +33,21 @@ class Promises:
         self.next_start: Joints | None = None
 
     def scene(
-        self, pile: Pile, without: BoxId | None = None, zones: AbstractSet[str] = frozenset()
+        self,
+        pile: Pile,
+        without: BoxId | None = None,
+        zones: AbstractSet[str] = frozenset(),
+        shape_of: ShapeOf = as_it_looks,
     ) -> Scene:
-        """Everything that stands around or will, one box left out; with what is avoided."""
-        return self._around.scene(pile, without, zones)
+        """Everything that stands around or will, with what is avoided.
+
+        Args:
+            pile: on the pallet.
+            without: a box that is left out.
+            zones: that are avoided.
+            shape_of: the room that is kept clear for each box of the pile.
+        """
+        return self._around.scene(pile, without, zones, shape_of)
 
     def standing(self, box: BoxId, place: PlaceId) -> OrientedBox | None:
         """A box that stands in a place, in the cell frame; None where it does not."""

@@ -1,12 +1,12 @@
 """What the arm must not touch, as the cell believes: the scene for the planner."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from collections.abc import Set as AbstractSet
 
 import numpy as np
 
 from depal.cell.pile import Pile
-from depal.domain import BoxId, CellLayout, PlaceId, Zone
+from depal.domain import BoxId, CellLayout, Perceived, PlaceId, Zone
 from depal.geometry import OrientedBox, Pose
 from depal.logistics.placing import Spot
 from depal.motion.collision import Scene, fixed_solids
@@ -22,6 +22,14 @@ EVERYWHERE = 100.0
 
 THIN = 0.05
 """Lower columns are not worth a solid [m]."""
+
+ShapeOf = Callable[[Perceived], OrientedBox]
+"""The room that is kept clear for a box of the pile."""
+
+
+def as_it_looks(box: Perceived) -> OrientedBox:
+    """The box itself."""
+    return box.shape
 
 
 class Surroundings:
@@ -54,13 +62,23 @@ class Surroundings:
         self._placed = {box: entry for box, entry in self._placed.items() if entry[0] not in gone}
 
     def scene(
-        self, pile: Pile, without: BoxId | None = None, zones: AbstractSet[str] = frozenset()
+        self,
+        pile: Pile,
+        without: BoxId | None = None,
+        zones: AbstractSet[str] = frozenset(),
+        shape_of: ShapeOf = as_it_looks,
     ) -> Scene:
-        """Everything that stands around, one box left out; with the zones that are avoided.
+        """Everything that stands around, with the zones that are avoided.
 
         A zone that the cell does not have might be anywhere: nothing moves.
+
+        Args:
+            pile: on the pallet.
+            without: a box that is left out.
+            zones: that are avoided.
+            shape_of: the room that is kept clear for each box of the pile.
         """
-        cases = [(str(box.id), box.shape) for box in pile.boxes if box.id != without]
+        cases = [(str(box.id), shape_of(box)) for box in pile.boxes if box.id != without]
         cases += [
             (f"what is under {box.id}", column)
             for box in pile.boxes

@@ -3,6 +3,7 @@
 from collections import Counter
 from dataclasses import replace
 
+from depal.cell.breadth import astray
 from depal.cell.choosing import GAVE_UP
 from depal.cell.guards import Guards
 from depal.cell.hand import Phase
@@ -121,6 +122,8 @@ class Checking:
         if too_many is not None:
             return self._refuse(box, too_many)
         size, beyond = told_size(product.size, held.size)
+        if work.pile.remembered:  # what it is does not tell where it was
+            beyond = astray(beyond, unsized=held.beyond[2] > 0.0)
         grasp = resized(held.grasp, held.size, size)
         work.held = replace(held, size=size, grasp=grasp, beyond=beyond)
         work.steps(Phase.HELD)

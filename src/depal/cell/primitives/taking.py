@@ -3,11 +3,20 @@
 import asyncio
 from contextlib import suppress
 
+from depal.cell.breadth import astray
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase, most_of
-from depal.cell.identity import beyond_seen, may_be_two, plausible, size_by_weight, why_not
+from depal.cell.identity import (
+    beyond_seen,
+    looks_like_two,
+    may_be_two,
+    plausible,
+    size_by_weight,
+    weighs_like,
+    why_not,
+)
 from depal.cell.payload import Payload
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
@@ -102,7 +111,8 @@ class Taking:
             return await self._let_go(plan, slipped)
         beyond = EXACT
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
-            beyond = beyond_seen(self._work.delivery, size, mass)
+            unsized = box in self._work.pile.unsized
+            beyond = astray(beyond_seen(self._work.delivery, size, mass), unsized=unsized)
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
         return Report(((f"{box}.taken", True),))
@@ -143,12 +153,21 @@ class Taking:
             else:
                 work.tries[plan.box.id] = VAIN  # it is two boxes, or part of something else
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
-        named = work.product_of(plan.box)
-        products = (named,) if named else plausible(work.delivery, plan.box.shape.size)
-        doubtful = work.tries.get(plan.box.id, 0) < TWICE
-        if doubtful and may_be_two(products, work.delivery, mass):
+        if work.tries.get(plan.box.id, 0) < TWICE and self._weighs_like_two(plan, mass):
+            self._tell_a_seam(plan)
             return f"{mass:.1f} kg hang on the arm, which two boxes weigh together"
         return None
+
+    def _weighs_like_two(self, plan: PickPlan, mass: float) -> bool:
+        """Whether two boxes may hang on the arm where one was seen: by their weight and size."""
+        work, box, size = self._work, plan.box, plan.box.shape.size
+        named = work.product_of(box)
+        unsized = box.id in work.pile.unsized
+        products = (named,) if named else plausible(work.delivery, size, unsized=unsized)
+        if may_be_two(products, work.delivery, mass):
+            return True
+        alone = any(weighs_like(product, mass) for product in products)
+        return not alone and work.pile.remembered and looks_like_two(work.delivery, size, mass)
 
     def _doubt_identity(self, plan: PickPlan, mass: float) -> None:
         """A box that the picture has named must weigh what the product does, and be on the note."""

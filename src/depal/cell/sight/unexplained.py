@@ -17,6 +17,8 @@ from depal.ports import Frame
 Floats = npt.NDArray[np.float64]
 Narrow = npt.NDArray[np.float32]
 Ints = npt.NDArray[np.int64]
+Bytes = npt.NDArray[np.uint8]
+Flags = npt.NDArray[np.bool_]
 
 STRIDE = 4
 """Every so many pixels of a depth picture along both edges are looked at."""
@@ -37,13 +39,19 @@ PATCH = 4
 HOLE = 3
 """Holes in a patch that are narrower than so many of the thinned pixels are none."""
 
+GROWN = 2
+"""Patches lose so many pixels along their edges, and get those back that lie on their surface."""
+
 JUMP = 0.02
 """Neighbouring depths that differ by more of themselves are of two surfaces."""
+
+SLOPE = 0.008
+"""An edge of a patch is of its surface where their depths differ by less of themselves."""
 
 CELL = 0.05
 """Edge of the columns that the rest is gathered in [m]."""
 
-LEAST = 2
+LEAST = 1
 """So many points make a column; fewer are noise."""
 
 ABOVE = 0.04
@@ -52,7 +60,7 @@ ABOVE = 0.04
 TALLEST = 2.2
 """No load is higher [m]."""
 
-RIM = 0.02
+RIM = 0.014
 """So much of a surface is lost at each of its edges [m]."""
 
 STEP = 0.06
@@ -80,10 +88,10 @@ def unexplained(
 def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> Floats:
     """(n, 3) points of one frame that belong to no box, in the pallet's frame.
 
-    Only patches count: beside edges depths lie between two surfaces, in lines and specks.
+    Only patches count: depths between two surfaces lie in lines and specks.
     """
     depth = _thinned(frame)
-    rows, columns = np.nonzero(_even(depth))
+    rows, columns = np.nonzero(depth > 0.0)
     points = _points(frame, depth, rows, columns)
     local = _carried(points, stand.cell_from_pallet.inverse)
     length, width, _ = stand.size
@@ -102,9 +110,27 @@ def _strange(frame: Frame, boxes: Sequence[OrientedBox], stand: PalletStand) -> 
             free[left[inside.all(axis=1)]] = False
     mask = np.zeros(depth.shape, dtype=np.uint8)
     mask[rows[free], columns[free]] = 1
-    whole = cv2.morphologyEx(mask, cv2.MORPH_CLOSE, np.ones((HOLE, HOLE), np.uint8))
-    patch = np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)))
-    return np.asarray(local[free & (patch[rows, columns] > 0)])
+    return np.asarray(local[free & _patches(depth, mask)[rows, columns]])
+
+
+def _patches(depth: Narrow, strange: Bytes) -> Flags:
+    """The pixels of patches; their edges, where depths are not even, belong to them.
+
+    Args:
+        depth: thinned.
+        strange: 1 where a pixel belongs to no box.
+    """
+    even = strange & _even(depth)
+    whole = cv2.morphologyEx(even, cv2.MORPH_CLOSE, np.ones((HOLE, HOLE), np.uint8))
+    patch = cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)) > 0
+    window = np.ones((3, 3), np.uint8)
+    patch = np.asarray(patch & (even > 0))
+    for _ in range(GROWN):
+        nearest = cv2.erode(np.where(patch, depth, np.float32(np.inf)), window)
+        farthest = cv2.dilate(np.where(patch, depth, np.float32(0.0)), window)
+        off = np.maximum(nearest - depth, depth - farthest)
+        patch = patch | ((strange > 0) & (off < SLOPE * depth))
+    return patch
 
 
 def _thinned(frame: Frame) -> Narrow:
@@ -113,7 +139,7 @@ def _thinned(frame: Frame) -> Narrow:
     return np.asarray(cv2.medianBlur(depth, MIDDLE)[::STRIDE, ::STRIDE])
 
 
-def _even(depth: Narrow) -> npt.NDArray[np.bool_]:
+def _even(depth: Narrow) -> Flags:
     """Pixels whose neighbours lie on the same surface."""
     window = np.ones((3, 3), np.uint8)
     span = np.asarray(cv2.dilate(depth, window)) - np.asarray(cv2.erode(depth, window))

@@ -7,6 +7,19 @@ cannot be done comes back with its reason.
 from depal.motion.moves.margins import CLOSE, ENTRY, OPEN
 from depal.motion.moves.mover import Mover
 from depal.motion.moves.putting import Berth
-from depal.motion.moves.values import Kind, NoMotion, Part, Pick, Put
+from depal.motion.moves.values import SURE, Doubts, Kind, NoMotion, Part, Pick, Put
 
-__all__ = ["CLOSE", "ENTRY", "OPEN", "Berth", "Kind", "Mover", "NoMotion", "Part", "Pick", "Put"]
+__all__ = [
+    "CLOSE",
+    "ENTRY",
+    "OPEN",
+    "SURE",
+    "Berth",
+    "Doubts",
+    "Kind",
+    "Mover",
+    "NoMotion",
+    "Part",
+    "Pick",
+    "Put",
+]

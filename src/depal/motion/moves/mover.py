@@ -10,13 +10,12 @@ from depal.domain import CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Body, Checker, Margins, Scene
 from depal.motion.collision.values import Array
-from depal.motion.grasping.bulk import EXACT
 from depal.motion.moves.margins import OPEN, TILT
 from depal.motion.moves.picking import plan_pick, why_no_pick
 from depal.motion.moves.putting import Berth, plan_put, why_no_put
 from depal.motion.moves.reach import Reach
 from depal.motion.moves.righting import righted
-from depal.motion.moves.values import Kind, NoMotion, Part, Pick, Put
+from depal.motion.moves.values import SURE, Doubts, Kind, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 
 
@@ -62,7 +61,7 @@ class Mover:
         scene: Scene,
         name: str,
         effort: Effort,
-        beyond: Vector3 = EXACT,
+        doubts: Doubts = SURE,
     ) -> Pick | NoMotion:
         """To a box, and straight out of the pile with it.
 
@@ -73,9 +72,9 @@ class Mover:
             scene: all that stands around, the box included under its name.
             name: of the box in the scene.
             effort: for free space.
-            beyond: how much longer the box may be along its own axes, at either end [m].
+            doubts: what is not as it looks, maybe.
         """
-        return plan_pick(self._reach, start, box, grasps, scene, name, effort, beyond)
+        return plan_pick(self._reach, start, box, grasps, scene, name, effort, doubts)
 
     def why_no_pick(
         self, near: Array, box: OrientedBox, grasp: Grasp, scene: Scene, name: str

@@ -13,7 +13,7 @@ from depal.motion.collision.values import Array
 from depal.motion.grasping.bulk import EXACT, swollen
 from depal.motion.moves.margins import BEFORE, BEYOND, CLOSE, DEEPER, FINE, LIFT, OPEN
 from depal.motion.moves.reach import Reach, scaled
-from depal.motion.moves.values import Kind, NoMotion, Part, Pick
+from depal.motion.moves.values import SURE, Doubts, Kind, NoMotion, Part, Pick
 from depal.motion.planning.free import Effort, Found
 from depal.motion.planning.straight import PITCH, straight
 
@@ -58,6 +58,7 @@ class _Job:
         box: in the cell frame.
         scene: all that stands around, the box included.
         without: the same, the box left out.
+        wary: what an empty hand keeps clear of: the same, or larger where errors are feared.
         beyond: how much longer it may be along its own axes, at either end [m].
     """
 
@@ -66,6 +67,7 @@ class _Job:
     box: OrientedBox
     scene: Scene
     without: Scene
+    wary: Scene
     beyond: Vector3 = EXACT
 
 
@@ -77,7 +79,7 @@ def plan_pick(
     scene: Scene,
     name: str,
     effort: Effort,
-    beyond: Vector3 = EXACT,
+    doubts: Doubts = SURE,
 ) -> Pick | NoMotion:
     """To a box, and straight out of the pile with it.
 
@@ -93,13 +95,13 @@ def plan_pick(
         scene: all that stands around, the box included under its name.
         name: of the box in the scene.
         effort: for free space.
-        beyond: how much longer the box may be along its own axes, at either end: it is taken
-            straight on until whatever it may be is clear [m].
+        doubts: what is not as it looks, maybe.
     """
-    job = _Job(reach, start, box, scene, scene.without(name), beyond)
+    around = doubts.wary or scene
+    job = _Job(reach, start, box, scene, scene.without(name), around, doubts.beyond)
     reasons: list[str] = []
     kept: list[_Option] = []
-    empty = {folded: reach.checker(scene, OPEN, folded=folded) for folded in (False, True)}
+    empty = {folded: reach.checker(around, OPEN, folded=folded) for folded in (False, True)}
     for careful, grasp in itertools.product((True, False), grasps):
         options = list(itertools.islice(_options(job, grasp, reasons, careful=careful), BRANCHES))
         if not options:
@@ -133,7 +135,7 @@ def why_no_pick(
         name: of the box in the scene.
     """
     reasons: list[str] = []
-    job = _Job(reach, near, box, scene, scene.without(name))
+    job = _Job(reach, near, box, scene, scene.without(name), scene)
     for _ in _options(job, grasp, reasons, careful=False):
         return ""
     return str(NoMotion.because(reasons))
@@ -164,7 +166,7 @@ def _options(job: _Job, grasp: Grasp, reasons: list[str], *, careful: bool) -> I
     if not len(branches):
         reasons.append(f"no reach for a {how} grasp")
         return
-    near = reach.checker(job.scene, CLOSE, folded=grasp.folded)
+    near = reach.checker(job.wary, CLOSE, folded=grasp.folded)
     empty = near.with_margins(OPEN)
     holding = reach.checker(job.without, CLOSE, grasp, box.size)
     clear = reach.checker(job.without, OPEN, *swollen(grasp, box.size, job.beyond))

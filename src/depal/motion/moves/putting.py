@@ -123,6 +123,7 @@ def _options(
         return
     entry = reach.checker(scene, ENTRY, berth.grasp, berth.size)
     clear = entry.with_margins(OPEN)
+    tool = reach.checker(scene, LEAVING, folded=berth.grasp.folded)
     for q in branches:
         if hit := entry.why(q):
             reasons.append(hit)
@@ -140,7 +141,8 @@ def _options(
         if isinstance(away, str):
             reasons.append(away)
             continue
-        yield _Option(back, down, away)
+        # A box that ends higher than it is taken to does not keep the tool off what is below.
+        yield _Option(back, down[: tool.first_hit(down)], away)
 
 
 def _retreat(reach: Reach, q: Array, berth: Berth, scene: Scene) -> Array | str:

@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 from depal.domain import Grasp
-from depal.motion.collision.values import Array
+from depal.geometry import Vector3
+from depal.motion.collision.values import Array, Scene
+from depal.motion.grasping.bulk import EXACT
 
 
 class Kind(Enum):
@@ -52,6 +54,24 @@ class NoMotion:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Doubts:
+    """What of a pile is not known for sure when a box is taken off it.
+
+    Attributes:
+        beyond: how much longer the box may be along its own axes, at either end: it is taken
+            straight on until whatever it may be is clear [m].
+        wary: what an empty hand keeps clear of, the box as it is; None for what is seen.
+    """
+
+    beyond: Vector3 = EXACT
+    wary: Scene | None = None
+
+
+SURE = Doubts()
+"""Everything is as it looks."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Pick:
     """A box is taken off the pile.
 
@@ -74,7 +94,8 @@ class Put:
 
     Attributes:
         carry: to just above where it will stand.
-        descent: straight down, further than needed: it is stopped by the load.
+        descent: straight down, further than needed as long as the tool is clear: it is stopped by
+            the load.
         retreat: straight out again, empty.
     """
 

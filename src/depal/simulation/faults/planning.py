@@ -7,8 +7,7 @@ from depal.domain import CellLayout, Grasp
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.motion.collision import Scene
 from depal.motion.collision.values import Array
-from depal.motion.grasping import EXACT
-from depal.motion.moves import Berth, Mover, NoMotion, Part, Pick, Put
+from depal.motion.moves import SURE, Berth, Doubts, Mover, NoMotion, Part, Pick, Put
 from depal.motion.planning.free import Effort
 from depal.simulation.faults.catalogue import Phase
 from depal.simulation.faults.chances import Chances
@@ -49,14 +48,14 @@ class FaultyMover(Mover):
         scene: Scene,
         name: str,
         effort: Effort,
-        beyond: Vector3 = EXACT,
+        doubts: Doubts = SURE,
     ) -> Pick | NoMotion:
         """To a box, and straight out of the pile with it."""
         if self._out_of_reach(name):
             return NoMotion((NO_REACH,))
         if self._gives_up():
             return NoMotion((GAVE_UP,))
-        return super().pick(start, box, grasps, scene, name, effort, beyond)
+        return super().pick(start, box, grasps, scene, name, effort, doubts)
 
     def put(
         self, lead: tuple[Part, ...], start: Array, berth: Berth, scene: Scene, effort: Effort

@@ -1,0 +1,48 @@
+"""How broad a box may be that nobody has named: a hand that passes keeps clear of all of it."""
+
+import numpy as np
+
+from depal.cell.identity import SIZE_SPARE, plausible
+from depal.domain import Delivery, Perceived, Recognition
+from depal.geometry import OrientedBox, Vector3
+
+SIDEWAYS = 0.008
+"""A box that no print has named is seen this far off to the side [m]."""
+
+UPRIGHT = 0.02
+"""And one of which nobody has seen an edge so far up or down [m]."""
+
+
+def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
+    """How much farther out a box may be than it seems: no less than looks err [m].
+
+    Args:
+        beyond: how much longer it may be along its own axes, at either end [m].
+        unsized: whether an edge of it is a guess: then so is where it ends below.
+    """
+    a, b, c = beyond
+    return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
+
+
+def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
+    """The room that a box may take beside others, of the height that it is seen in.
+
+    Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
+    was seen wrongly nobody knows. A name tells.
+
+    Args:
+        box: upright.
+        delivery: what it can be.
+    """
+    shape = box.shape
+    if isinstance(box, Recognition):
+        return shape
+    a, b, c = shape.size
+    longest = np.array((a, b))
+    for product in plausible(delivery, shape.size):
+        along, across, high = product.size
+        for way in ((along, across), (across, along)):
+            if max(abs(way[0] - a), abs(way[1] - b), abs(high - c)) <= SIZE_SPARE:
+                longest = np.maximum(longest, way)
+    width, depth = (2 * (longest + SIDEWAYS) - (a, b)).tolist()
+    return OrientedBox(shape.pose, (width, depth, c))

@@ -1,0 +1,89 @@
+"""A hand keeps clear of all that a box without a name may be."""
+
+import numpy as np
+import pytest
+from cells_at_work import DECK, Cell
+from hypothesis import given
+from hypothesis import strategies as st
+
+from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray
+from depal.domain import (
+    EURO_PALLET,
+    BoxId,
+    Delivery,
+    DeliveryLine,
+    Detection,
+    Gtin,
+    Product,
+    Recognition,
+)
+from depal.geometry import OrientedBox, Pose, Vector3
+from depal.motion.collision import Margins, Scene
+from depal.ports import View
+
+TOUCHING = Margins(arm=0.0, tool=0.0, held=0.0, pile=0.0, floor=0.0)
+
+edge = st.floats(0.1, 0.5)
+sizes = st.tuples(edge, edge, edge)
+off = st.floats(-0.028, 0.028)
+end = st.sampled_from((-1, 1))
+
+
+def note(*found: Vector3) -> Delivery:
+    """A note of cases of some sizes."""
+    products = [Product(Gtin(f"g{k}"), "g", size, 4.0) for k, size in enumerate(found)]
+    return Delivery("d", EURO_PALLET, tuple(DeliveryLine(each, 1) for each in products))
+
+
+@given(sizes, st.tuples(off, off, off), st.floats(-3, 3), st.tuples(end, end))
+def test_a_box_lies_in_the_room_that_it_may_take_whichever_end_was_seen_right(
+    size: Vector3, errors: Vector3, yaw: float, ends: tuple[int, int]
+) -> None:
+    """It was taken for another product, turned either way; its top was seen where it is."""
+    seen = (size[0] + errors[0], size[1] + errors[1], size[2] + errors[2])
+    pose = Pose.from_yaw((1.8, 0.1, 0.5), yaw)
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, seen)), note(size, seen))
+    shift = [way * (a - b) / 2 for way, a, b in zip(ends, seen, size, strict=False)]
+    true = OrientedBox(pose @ Pose((shift[0], shift[1], 0.0)), (size[0], size[1], seen[2]))
+    local = np.array([room.pose.inverse.apply(tuple(corner)) for corner in true.corners.tolist()])
+    assert (np.abs(local) <= np.array(room.size) / 2 + 1e-9).all()
+
+
+@given(sizes)
+def test_a_name_tells_how_broad_a_box_is(size: Vector3) -> None:
+    """What goes by a name is as it looks."""
+    box = Recognition(BoxId("b"), OrientedBox.upright((1.8, 0.0, 0.5), size), Gtin("g0"))
+    assert as_broad_as_it_may_be(box, note(size)) == box.shape
+
+
+@pytest.mark.parametrize("side", [-1, 1])
+def test_a_tool_keeps_clear_of_what_a_higher_neighbour_may_be(side: int) -> None:
+    """By its looks alone it would hit it."""
+    cell = Cell(1)
+    low, high, broad = (0.25, 0.18, 0.19), (0.25, 0.28, 0.22), (0.25, 0.3, 0.22)
+    lying = OrientedBox.upright((1.5, 0.0, DECK + low[2] / 2), low)
+    beside = OrientedBox.upright((1.5, side * 0.255, DECK + high[2] / 2), high)
+    true = OrientedBox.upright((1.5, side * 0.245, DECK + high[2] / 2), broad)
+    box = Recognition(BoxId("b1"), lying, Gtin("g0"))
+    cell.work.delivery = note(low, high, broad)
+    hits = []
+    for remembered in (False, True):
+        seen = (box, Detection(BoxId("b2"), beside))
+        cell.work.pile.see(View(0.0, seen, remembered=remembered))
+        plan = cell.desk.picking.try_pick(box)
+        assert not isinstance(plan, str)
+        scene = Scene.of([], [("b2", true)])
+        tool = cell.desk.planner.mover.checker(scene, TOUCHING, folded=plan.grasp.folded)
+        hits.append(tool.first_hit(plan.pick.approach[-1].path) is not None)
+    assert hits == [True, False]
+
+
+@given(st.tuples(*[st.floats(0.0, 0.2)] * 3), st.tuples(*[st.floats(-SIDEWAYS, SIDEWAYS)] * 2))
+def test_a_box_that_is_off_to_the_side_lies_within_its_room(
+    beyond: Vector3, off: tuple[float, float]
+) -> None:
+    """However well its size is known; no higher."""
+    room = astray(beyond)
+    assert (np.array(room) >= beyond).all()
+    assert (np.abs(off) <= room[:2]).all()
+    assert room[2] == beyond[2]

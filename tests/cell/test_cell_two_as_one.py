@@ -1,0 +1,59 @@
+"""Two cartons that were seen as one are told by their weight, and seen as two at the next look."""
+
+from dataclasses import replace
+
+from cells_at_work import DECK, Cell, name
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from depal.cell.departures import Fate
+from depal.cell.feedback import Feedback
+from depal.domain import EURO_PALLET, Delivery, DeliveryLine, Detection, Gtin, Product
+from depal.geometry import OrientedBox
+from depal.ports import View
+from depal.ports.fakes import FakeGripper, FakeSight
+
+LOW, HIGH = (0.28, 0.25, 0.19), (0.56, 0.25, 0.22)
+
+
+class Remembering(FakeSight):
+    """A sight that measures with cameras, and errs."""
+
+    async def look(self) -> View:
+        """All that is believed."""
+        return replace(await FakeSight.look(self), remembered=True)
+
+
+def seen_as_one(weight: float) -> tuple[Cell, list[OrientedBox]]:
+    """Two low cartons side by side look like a high one; what perception is told."""
+    box = Detection(name(1), OrientedBox.upright((1.55, 0.0, DECK + 0.11), (0.25, 0.56, 0.22)))
+    cell = Cell(1, gripper=FakeGripper(weight=weight))
+    told: list[OrientedBox] = []
+    cell.sight = Remembering([(box,)])
+    cell.work.ports = replace(cell.work.ports, sight=cell.sight)
+    cell.work.feedback = Feedback(part=told.append)
+    products = [Product(Gtin("low"), "low", LOW, 4.0), Product(Gtin("high"), "high", HIGH, 12.0)]
+    lines = tuple(DeliveryLine(each, 2) for each in products)
+    cell.work.delivery = Delivery("two", EURO_PALLET, lines)
+    return cell.works(), told
+
+
+@settings(max_examples=4)
+@given(st.floats(7.5, 8.5))
+def test_what_weighs_and_looks_like_two_is_put_back_and_its_face_is_none(weight: float) -> None:
+    """Twice: then it is one of another weight. The place under the cups lies within the face."""
+    cell, told = seen_as_one(weight)
+    grasps = [step for step in cell.started if step.startswith("kr60_grasp")]
+    assert len(grasps) == 3
+    assert len(told) == 2
+    for place in told:
+        low, high = place.corners.min(axis=0), place.corners.max(axis=0)
+        assert -0.28 <= low[1] < 0.0 < high[1] <= 0.28
+    assert cell.fates[name(1)] is not Fate.STORED
+
+
+def test_what_weighs_like_one_is_one() -> None:
+    """Nothing is put back, and perception is told nothing."""
+    cell, told = seen_as_one(12.0)
+    assert told == []
+    assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == 1
