@@ -105,7 +105,7 @@ def test_a_box_that_was_missed_behind_another_is_seen_from_above() -> None:
 def test_all_of_a_top_that_nothing_explains_lies_in_obstacles(
     x: float, y: float, depth: float, width: float
 ) -> None:
-    """To its corners, within 5 mm: where an edge is cut off, a tool hits it."""
+    """To its corners, within 8 mm: where an edge is cut off, a tool hits it."""
     missed = box(x, y, (depth, width, 0.25))
     found = unexplained([from_above([missed], 0.002)], [], CELL.pallet)
     lower = np.array([solid.corners.min(axis=0) for solid in found])
@@ -113,4 +113,4 @@ def test_all_of_a_top_that_nothing_explains_lies_in_obstacles(
     for corner in missed.corners[missed.corners[:, 2] > missed.centre[2]]:
         below = corner - (0.0, 0.0, 0.01)
         off = np.maximum(np.maximum(lower - below, below - upper), 0.0).max(axis=1).min()
-        assert off < 0.005
+        assert off < 0.008
