@@ -12,6 +12,7 @@ from depal.motion.collision import STEP, Checker
 from depal.motion.collision.values import Array
 from depal.motion.kinematics import Kinematics, solve_near
 from depal.motion.planning.axes import Axes, span
+from depal.motion.planning.escaping import escaped
 from depal.motion.planning.shortcuts import pull, shorten
 from depal.motion.planning.trees import grow_trees
 
@@ -81,7 +82,7 @@ class FreePlanner:
         """A path from a start to one of some goals: an easy one, or one that is searched for.
 
         Args:
-            checker: what must not be touched; start and goals are free.
+            checker: what must not be touched; goals are free, and the start is, or nearly so.
             start: (6,) [rad].
             goals: (g, 6) [rad].
             effort: how hard to search.
@@ -96,8 +97,17 @@ class FreePlanner:
 
     def quick(self, checker: Checker, start: Array, goals: Array, effort: Effort) -> Found | None:
         """The shortest of the straight joint lines and the ways over drawn-in postures."""
-        if not checker.free(start):
+        begin = escaped(checker, start)
+        if begin is None:
             return None
+        return self._with_escape(start, begin, self._easy(checker, begin, goals, effort))
+
+    def _with_escape(self, start: Array, begin: Array, found: Found | None) -> Found | None:
+        if found is None or begin is start:
+            return found
+        return self._found(np.vstack((start, found.path)), found.how)
+
+    def _easy(self, checker: Checker, start: Array, goals: Array, effort: Effort) -> Found | None:
         ways = [np.stack((start, goal)) for goal in goals]
         order = sorted(range(len(goals)), key=lambda k: (self._length(ways[k]), k))
         for k in order[:EASY]:
@@ -124,21 +134,23 @@ class FreePlanner:
         self, checker: Checker, start: Array, goals: Array, effort: Effort, *, level: bool
     ) -> Found | None:
         """A path found by growing trees from the start and from all goals."""
-        if not checker.free(start):
+        begin = escaped(checker, start)
+        if begin is None:
             return None
         kinematics = self._kinematics
         path = grow_trees(
             checker.case,
             Axes(self._speed, kinematics.lower, kinematics.upper, STEP),
-            self._levels(start, goals) if level else np.empty((0, 3, 3)),
-            start,
+            self._levels(begin, goals) if level else np.empty((0, 3, 3)),
+            begin,
             goals,
             effort.iterations,
             effort.seed,
         )
         if not len(path):
             return None
-        return self._found(self._shortened(checker, path, effort), "trees")
+        found = self._found(self._shortened(checker, path, effort), "trees")
+        return self._with_escape(start, begin, found)
 
     def _shortened(self, checker: Checker, path: Array, effort: Effort) -> Array:
         kinematics = self._kinematics
