@@ -40,15 +40,17 @@ class Presenting:
         bulky = replace(load.bulky, rules=rules)
         holding, clear = planner.holding(load), planner.checker(bulky, scene)
         found: list[Trajectory] = []
-        reason = "no side can be shown"
+        reasons: list[str] = []
         for _, pose in shown_poses(load, self._work.layout.reader):
             parts = planner.show(bulky, pose, scene)
             if isinstance(parts, NoMotion):
-                reason = str(parts)
+                reasons += parts.reasons
                 continue
             trajectory = planner.timing.along(parts, holding, clear)
             if trajectory is None:
                 continue
             found.append(trajectory)
             bulky = replace(bulky, lead=(), start=parts[-1].path[-1])
-        return ShowPlan(found[0], tuple(found[1:])) if found else rules.after(reason)
+        if found:
+            return ShowPlan(found[0], tuple(found[1:]))
+        return rules.after(str(NoMotion.because(reasons or ["no side can be shown"])))
