@@ -49,14 +49,13 @@ class Clearing:
 def _along(
     work: Workplace, planner: Planner, promises: Promises, shift: Vector3
 ) -> Trajectory | None:
-    """Straight, no farther than until nothing is near any more; as far as the arm reaches."""
+    """Straight, no farther than until the arm can draw in; as far as it reaches."""
     held = work.held
     path = straight_as_far(planner.mover.body.kinematics, planner.here, shift)
     scene = promises.scene(work.pile, None if held is None else held.box, work.bounds.zones)
     checker = _checker(work, planner, scene)
-    free = checker.first_free(path)
     if len(work.pile) or _is_level(shift):  # above a pile that nobody has seen all the way counts
-        path = path if free is None else path[: free + 1]
+        path = path[: _open_row(planner, checker, path) + 1]
     path = _short_of(path, _checker(work, planner, scene.zones))
     if len(path) < 2:  # noqa: PLR2004 - a path has two ends
         return None
@@ -65,6 +64,18 @@ def _along(
         return planner.timing.along(parts)
     holding = Holding.of(held.grasp, held.mass, work.layout.tool, size=held.size)
     return planner.timing.along(parts, holding) or planner.timing.slowly(parts[0])
+
+
+def _open_row(planner: Planner, checker: Checker, path: Array) -> int:
+    """The first row from which the arm can draw in: in a place nothing may be near, and it cannot.
+
+    Where there is none, the first row at which nothing is near, or the last one.
+    """
+    for row, q in enumerate(path):
+        if checker.free(q) and planner.mover.is_open(checker, q):
+            return row
+    first = checker.first_free(path)
+    return len(path) - 1 if first is None else first
 
 
 def _checker(work: Workplace, planner: Planner, scene: Scene) -> Checker:

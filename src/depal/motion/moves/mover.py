@@ -53,6 +53,10 @@ class Mover:
         """The check for an empty hand, or for one that holds a box by a grasp."""
         return self._reach.checker(scene, margins, grasp, size, folded=folded)
 
+    def is_open(self, checker: Checker, q: Array) -> bool:
+        """Whether the arm can draw in from a configuration (6,) at once [rad]."""
+        return self._reach.free.is_open(checker, q)
+
     def pick(
         self,
         start: Array,
