@@ -13,7 +13,7 @@ from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import CarryPlan, Load
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.surroundings import target_of
-from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.planning.timing import rebased, stands_at, straight_to_end
 from depal.cell.planning.trolleys import Trolleys
 from depal.cell.rules import LEAVING, rules_on
 from depal.cell.workplace import Workplace
@@ -253,5 +253,6 @@ class Carrying:
 
     def retreat(self, plan: CarryPlan) -> Trajectory | None:
         """Straight out of the place from where the arm has come to rest."""
-        part = Part(Kind.STRAIGHT, rebased(plan.retreat, self._planner.here))
+        kinematics, here = self._planner.mover.body.kinematics, self._planner.here
+        part = Part(Kind.STRAIGHT, straight_to_end(kinematics, plan.retreat, here))
         return self._planner.timing.along([part])

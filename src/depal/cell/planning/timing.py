@@ -10,7 +10,9 @@ from depal.domain import CellLayout, Joints
 from depal.motion.collision import Checker
 from depal.motion.collision.values import Array
 from depal.motion.grasping import Holding
+from depal.motion.kinematics import Kinematics
 from depal.motion.moves import Kind, Part
+from depal.motion.planning.straight import straight
 from depal.motion.timing import Leg, time_path
 from depal.ports import Trajectory
 
@@ -85,6 +87,29 @@ def rebased(path: Array, start: Array) -> Array:
     share = np.linspace(1.0, 0.0, len(path))[:, None]
     out: Array = path + share * (start - path[0])
     return out
+
+
+def straight_to_end(kinematics: Kinematics, path: Array, start: Array) -> Array:
+    """A straight move of the flange that begins elsewhere, to the same end.
+
+    Near a stretched wrist a rest some millimetres off turns two axes by a lot against each other,
+    and a difference that fades out along the path would swing the tool (`rebased`).
+
+    Args:
+        kinematics: of the arm.
+        path: (n, 6) straight, at constant orientation [rad].
+        start: (6,) where the arm really is, not far from the path's start [rad].
+
+    Returns:
+        (m, 6) [rad]; the path with a difference that fades out where there is no straight one.
+    """
+    begin, end = kinematics.frames(start)[6][:, 3], kinematics.frames(path[-1])[6][:, 3]
+    x, y, z = (end - begin).tolist()
+    way = straight(kinematics, start, (x, y, z))
+    if way is None or not stands_at(way[-1], path[-1]):
+        return rebased(path, start)
+    way[-1] = path[-1]
+    return way
 
 
 def stands_at(here: Joints | Array, there: Joints | Array) -> bool:
