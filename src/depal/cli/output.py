@@ -31,6 +31,15 @@ Keep = Annotated[
     ),
 ]
 
+TaskFiles = Annotated[
+    list[str] | None,
+    typer.Option(
+        metavar="FILE",
+        help="A task file in place of the shipped ones; once for each file.",
+        show_default=False,
+    ),
+]
+
 _PIPE_WIDTH = 132
 
 

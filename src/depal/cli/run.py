@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from depal.cli.output import JsonFile, Seed, console
+from depal.cli.output import JsonFile, Seed, TaskFiles, console
 
 
 def run(  # noqa: PLR0913, PLR0917 - a command's options
@@ -20,14 +20,7 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
-    tasks: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="FILE",
-            help="A task file in place of the shipped ones; once for each file.",
-            show_default=False,
-        ),
-    ] = None,
+    tasks: TaskFiles = None,
     note: Annotated[
         str,
         typer.Option(

@@ -6,6 +6,8 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
+from depal.cli.output import TaskFiles
+
 Folder = Annotated[Path, typer.Option("--data", help="The folder in which everything is kept.")]
 
 
@@ -15,14 +17,7 @@ def serve(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
-    tasks: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="FILE",
-            help="A task file in place of the shipped ones; once for each file.",
-            show_default=False,
-        ),
-    ] = None,
+    tasks: TaskFiles = None,
     db: Annotated[
         str, typer.Option(help="The store's database; a file in the data folder by default.")
     ] = "",
