@@ -167,6 +167,12 @@ def test_a_stop_that_nobody_answers_and_the_arm_goes_on_is_found(
     assert outcome.broken.startswith("I5, I7: the arm moves before stopped/1 is answered")
 
 
+@pytest.mark.slow
+def test_a_stop_counts_from_when_it_is_seen() -> None:
+    """The arm brakes while the first look after a stop is made: nothing is broken by that."""
+    assert not run_job(job_of(Piece(("M7", "M3"), 144))).broken
+
+
 async def _at_once(*_: object) -> None:
     """Nobody waits."""
 

@@ -97,6 +97,22 @@ def test_a_box_on_the_floor_is_picked_up_when_it_is_asked_about(about: str, expe
     assert cell.referee.where(0) == expected
 
 
+def test_a_box_that_falls_before_the_worker_comes_is_taken_all_the_same() -> None:
+    """Who has seen which one is meant looks for it where it has gone."""
+    cell = a_cell()
+    where = cell.world.box(0).translation
+    question = Question("q3", "Take it?", ("taken", "wait"), "seen_7", at=where)
+
+    async def falls() -> None:
+        asked = asyncio.ensure_future(cell.person.ask(question))
+        await asyncio.sleep(1.0)
+        cell.world.place_box(0, Pose((1.0, -1.0, 0.15)))
+        assert await asked == "taken"
+
+    run_simulated(falls())
+    assert cell.referee.where(0) == "removed"
+
+
 def test_boxes_above_one_that_is_taken_away_fall() -> None:
     """Whoever slept on it wakes."""
     note = delivery(

@@ -59,17 +59,26 @@ class SimulatedPerson:
         """Asks and waits for as long as it takes; returns one of the choices."""
         answer = self.what_is_so(question) if self._policy is None else self._policy(question)
         self.asked.append((self._clock.now(), question, answer))
+        pointed_at = self._meant(question)
         await asyncio.sleep(self._mean * float(self._random.uniform(0.5, 1.5)))
-        await self.does(question, answer)
+        await self.does(question, answer, pointed_at)
         return answer
 
-    async def does(self, question: Question, answer: str) -> None:
-        """Does in the world what an answer promises."""
+    async def does(self, question: Question, answer: str, pointed_at: int | None = None) -> None:
+        """Does in the world what an answer promises.
+
+        Args:
+            question: what was asked.
+            answer: one of its choices.
+            pointed_at: the box that the question meant when it was asked, by its index in the
+                stack: it is taken wherever it has slid or fallen since.
+        """
         self._world.advance(self._clock.now())
         if self._is_trolley(question.about) and answer == question.choices[0]:
             await self._exchange(question.about)
-        else:
-            self._pick_up(question, anywhere=answer == TAKEN)
+            return
+        meant = self._meant(question)
+        self._pick_up(question, pointed_at if meant is None else meant, anywhere=answer == TAKEN)
 
     def what_is_so(self, question: Question) -> str:
         """What is asked, where it can be done; what is read, where that is a choice."""
@@ -113,8 +122,7 @@ class SimulatedPerson:
         self._trolleys += 1
         self._world.show_storage(bay, trolley=f"{bay}#{self._trolleys + 1}")
 
-    def _pick_up(self, question: Question, *, anywhere: bool) -> None:
-        index = self._meant(question)
+    def _pick_up(self, question: Question, index: int | None, *, anywhere: bool) -> None:
         if index is None or index in self._world.removed:
             return
         if anywhere or self._referee.where(index) in {FLOOR, ELSEWHERE}:

@@ -90,7 +90,8 @@ class Inspector:
         self._kinematics = Kinematics(cell.world.layout.robot)
         self._ended: Counter[str] = Counter()
         self._since: dict[str, float] = {}
-        self._moved = self._stopped = 0.0
+        self._moved = 0.0
+        self._stopped: float | None = None
         self._over = asyncio.Event()
         self.broken = ""
         self.checks = 0
@@ -191,8 +192,10 @@ class Inspector:
         """I7: with bad safety inputs the arm comes to rest and stays there."""
         now, safety = self._work.now, self._cell.safety.state()
         if not (safety.stopped or safety.gate_open):
-            self._stopped = now
+            self._stopped = None
             return
+        if self._stopped is None:  # as of now: when it began, between two looks, nobody knows
+            self._stopped = now
         fastest = float(np.abs(self._cell.world.data.qvel[:6]).max())
         if now - self._stopped > RESTS and fastest > SLOW:
             yield f"I7: the arm moves {now - self._stopped:.1f} s after a safety stop"
