@@ -31,6 +31,9 @@ LIGHT, HEAVY = (0.5, 0.7), (1.22, 1.32)
 SHORT = (0.70, 0.80)
 """A box that is not as high as its product has this share of the height."""
 
+MOVING = frozenset({"P7", "M2"})
+"""The faults that move boxes before the cups are at them."""
+
 PUSH = 1.4
 """With this speed a falling box leaves the pile [m/s]."""
 
@@ -57,6 +60,8 @@ class FaultyPile:
 
     def reached_for(self, end: Joints) -> None:
         """The arm begins to move, with an empty hand, to these joints [rad]."""
+        if self._chances.planned.isdisjoint(MOVING):
+            return
         flange = self._kinematics.flange(np.array(end))
         tips = [
             flange.apply(module.flange_from_face.translation)
@@ -110,6 +115,8 @@ class FaultyPile:
 
     def sticks(self, box: int) -> None:
         """The vacuum holds a box: a neighbour that stands close by may come along."""
+        if "G4" not in self._chances.planned:
+            return
         beside = [other for other in self._on_pallet() if other != box and self._beside(box, other)]
         if beside and self._chances.strikes("G4", Phase.GRASP, box) is not None:
             self._world.suction.stick(beside[0], box)
