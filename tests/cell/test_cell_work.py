@@ -366,12 +366,16 @@ def test_a_person_who_comes_late_is_waited_for(delay: float) -> None:
     assert len(texts(cell)) == 1
 
 
-def test_where_no_storage_has_room_a_person_takes_the_box_out_of_the_gripper() -> None:
-    """And the arm does nothing else before."""
-    cell = Cell(2, places={gtin(1): (TROLLEYS[0],)}, full=SHELF).works()
-    cell.assert_whole()
-    assert cell.fates == {"b1": STORED, "b2": PERSON}
-    assert texts(cell)[0].startswith("The arm cannot put box b2 down:")
+@pytest.mark.parametrize("homeless", [2, 3])
+def test_where_no_storage_has_room_a_person_takes_the_box_out_of_the_gripper(homeless: int) -> None:
+    """And the arm does nothing else before: no other box is reached for with a full hand."""
+    known = {gtin(n): (TROLLEYS[n - 1],) for n in range(1, 4) if n != homeless}
+    cell = Cell(3, places=known, full=SHELF)
+    cell.person.delay = 100.0
+    cell.works().assert_whole()
+    fates = dict.fromkeys(("b1", "b2", "b3"), STORED)
+    assert cell.fates == {**fates, f"b{homeless}": PERSON}
+    assert texts(cell)[0].startswith(f"The arm cannot put box b{homeless} down:")
 
 
 # Requests

@@ -4,15 +4,18 @@ import asyncio
 from collections import Counter
 from collections.abc import Callable, Sequence
 
-from depal.cell.departures import Fate
 from depal.cell.planning.promises import Promises
 from depal.cell.workplace import FIRST, Workplace
 from depal.domain import BoxId
 from depal.executive import events as ev
 from depal.executive.engine import Call
-from depal.ports import TAKEN, Question
+from depal.ports import Question
 
-STORE, ASIDE, EMPTY, RECOVER = "store", "set_aside", "depalletize", "recover"
+STORE, ASIDE, HAND_OVER = "store", "set_aside", "hand_over"
+EMPTY, RECOVER = "depalletize", "recover"
+
+OF_BOXES = frozenset({STORE, ASIDE, HAND_OVER})
+"""Tasks that end with their box."""
 
 STEPS = frozenset({"look_again", "carry_on"})
 """Actions of `recover` that need the cameras; from any other fault of a box it recovers."""
@@ -69,7 +72,7 @@ class Answers:
             blind = schema == EMPTY or (schema == RECOVER and self._cannot_recover(args[0]))
             if blind and state.facts.get(f"{args[0]}.fault"):
                 self._held(number, args[0], str(state.facts[f"{args[0]}.fault"]))
-            if schema not in {STORE, ASIDE}:
+            if schema not in OF_BOXES:
                 continue
             box = BoxId(args[0])
             if state.facts.get(f"{box}.on_floor"):
@@ -123,41 +126,23 @@ class Answers:
     def _give_up(self, number: int, schema: str, box: BoxId, fault: str) -> None:
         work, runtime = self._work, self._work.runtime
         taken = runtime.engine.state.facts.get(f"{box}.taken")
-        alone = box not in work.crowded  # two would come into one slot
-        aside = schema == STORE and alone and bool(taken or box in work.homeless)
+        # Of two boxes, or of one that ends nobody knows where, none comes into a place.
+        placeable = schema == STORE and box not in work.unplaceable
+        aside = placeable and bool(taken or box in work.homeless)
+        # First of all its successor: the arm goes from the one to the other.
         if aside:
-            # First of all its successor: the arm goes from the one to the other.
             work.aside_reasons[box] = fault
             runtime.allocate(Call(ASIDE, (box,), FIRST))
+        elif taken:
+            work.stranded[box] = fault
+            runtime.allocate(Call(HAND_OVER, (box,), FIRST))
         runtime.withdraw(number, fault)
         runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
-        if aside:
-            return
-        if not taken:
+        if not aside and not taken:
             self._promises.forget_pick(box)
             work.left_behind[box] = fault
             work.gone(box).set()
-        else:
-            task = asyncio.get_running_loop().create_task(self._hand_over(box, fault))
-            self._handing.add(task)
-            task.add_done_callback(self._handed_over)
 
     def _handed_over(self, task: asyncio.Task[None]) -> None:
         self._handing.discard(task)
         self._answered()
-
-    async def _hand_over(self, box: BoxId, fault: str) -> None:
-        """A person takes the box out of the gripper."""
-        work = self._work
-        question = Question(
-            f"hand/{box}",
-            f"The arm cannot put box {box} down: {fault}. Please take it out of the gripper.",
-            (TAKEN,),
-            str(box),
-        )
-        await work.questions.ask(question)
-        await work.ports.gripper.release()
-        reason = work.aside_reasons.get(box, fault)
-        work.crowded.discard(box)
-        work.ended(box, Fate.BY_PERSON, reason=reason)
-        work.runtime.change([(f"{box}.taken", False)], "person")

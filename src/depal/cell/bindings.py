@@ -51,6 +51,7 @@ def bindings(
         "await_answer": minding.await_answer,
         "look_again": minding.look_again,
         "ask_decision": minding.ask_decision,
+        "ask_to_take": minding.ask_to_take,
         "carry_on": minding.carry_on,
         "ask_for_start": restarting.ask_for_start,
         "check_safety": restarting.check_safety,

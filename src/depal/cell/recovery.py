@@ -8,7 +8,7 @@ person decides. Nothing moves before a person has said start.
 import asyncio
 from contextlib import suppress
 
-from depal.cell.answers import ASIDE, STORE
+from depal.cell.answers import ASIDE, OF_BOXES, STORE
 from depal.cell.clearing import get_clear
 from depal.cell.departures import Fate
 from depal.cell.guards import Guards
@@ -171,7 +171,7 @@ class Recovery:
         """A box in the hand is worked on by somebody; else it is set aside."""
         trees = self._work.runtime.engine.state.trees.values()
         roots = [tree.root.node for tree in trees if tree.withdrawn is None]
-        if not any(r.args[:1] == (hand.box,) and r.schema.name in {STORE, ASIDE} for r in roots):
+        if not any(r.args[:1] == (hand.box,) and r.schema.name in OF_BOXES for r in roots):
             self._work.aside_reasons.setdefault(hand.box, "nobody worked on it after a restart")
             self._work.allocate(Call(ASIDE, (hand.box,), FIRST))
 
@@ -209,7 +209,7 @@ class Recovery:
         """Nobody works on a box any more that somebody has taken, or that fell."""
         for number, tree in list(self._work.runtime.engine.state.trees.items()):
             root = tree.root.node
-            if root.args[:1] == (box,) and root.schema.name in {STORE, ASIDE}:
+            if root.args[:1] == (box,) and root.schema.name in OF_BOXES:
                 self._work.runtime.withdraw(number, "the box has left the cell")
 
     def _forget_the_rest(self, hand: Hand | None) -> None:

@@ -180,7 +180,9 @@ class Workplace:
         left_behind: boxes that stay on the pallet, and why.
         aside_reasons: why boxes are set aside.
         doubted: boxes that were not as they looked: they are looked at before another try.
-        crowded: boxes in the gripper that weigh like two: a person takes out what hangs there.
+        unplaceable: boxes in the gripper that weigh like two, or of which nobody knows where they
+            end: a person takes out what hangs there.
+        stranded: why a box in the gripper comes into no place at all.
         tries: how often the gripper had no hold of a box that it was at.
         strangers: what the reader saw on boxes that are not on the note.
         homeless: boxes for which the store's system has named no place.
@@ -209,7 +211,8 @@ class Workplace:
     left_behind: dict[BoxId, str] = field(default_factory=dict)
     aside_reasons: dict[BoxId, str] = field(default_factory=dict)
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
-    crowded: set[BoxId] = field(default_factory=set)
+    unplaceable: set[BoxId] = field(default_factory=set)
+    stranded: dict[BoxId, str] = field(default_factory=dict)
     tries: dict[BoxId, int] = field(default_factory=dict)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     homeless: set[BoxId] = field(default_factory=set)

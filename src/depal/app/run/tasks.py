@@ -12,7 +12,15 @@ from depal.executive.checking import check
 from depal.executive.language import read_tasks
 from depal.executive.schema import Action, Repository
 
-CALLED: Final = ("depalletize", "store", "set_aside", "recover", "exchange", "restart_arm")
+CALLED: Final = (
+    "depalletize",
+    "store",
+    "set_aside",
+    "hand_over",
+    "recover",
+    "exchange",
+    "restart_arm",
+)
 """Tasks that the cell allocates by itself."""
 
 

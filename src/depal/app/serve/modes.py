@@ -69,6 +69,7 @@ ASKING = frozenset(
         "await_trolley",
         "call_for_exchange",
         "ask_decision",
+        "ask_to_take",
         "await_answer",
         "kr60_show",
         "read_barcode",

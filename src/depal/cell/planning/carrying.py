@@ -150,7 +150,7 @@ class Carrying:
                 reason = str(put)
                 continue
             holding, clear = planner.holding(load), planner.checker(load, scene)
-            motion = planner.timing.along(put.carry, holding, clear)
+            motion = planner.timing.along(put.carry, holding, clear, load.pace)
             descent = planner.timing.slowly(put.descent, holding)
             if motion is None or descent is None:
                 reason = "the suction would not hold it"

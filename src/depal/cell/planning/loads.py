@@ -4,12 +4,19 @@ import math
 
 import numpy as np
 
-from depal.cell.identity import plausible
+from depal.cell.identity import plausible, weighs_like, why_not
 from depal.cell.planning.plans import Load, PickPlan
 from depal.cell.planning.timing import stands_at
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Delivery, Perceived, Recognition
 from depal.geometry import Vector3
+
+UNSURE = 0.35
+"""A box of which nobody knows where its middle is moves at this share of the speed, so that what
+accelerates it is an eighth."""
+
+LOOSE = 0.04
+"""Nobody knows where the middle is of a box that may be longer by more than this [m]."""
 
 HEAVIEST = 600.0
 """An unknown box is not expected to be denser than this [kg/m^3]."""
@@ -26,16 +33,33 @@ def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
     held = work.held
     if held is not None and held.box == box:
         here = np.array(work.ports.arm.joints())
+        lifted = plan is not None and stands_at(here, plan.pick.lift.path[-1])
+        lead, start = ((plan.pick.out,), plan.pick.out.path[-1]) if plan and lifted else ((), here)
+        pace = 1.0 if hangs_as_thought(held, work) else UNSURE
         mass = _felt(held, work)
-        if plan is not None and stands_at(here, plan.pick.lift.path[-1]):
-            out = plan.pick.out
-            return Load(box, held.grasp, held.size, mass, (out,), out.path[-1], held.beyond)
-        return Load(box, held.grasp, held.size, mass, (), here, held.beyond)
+        return Load(box, held.grasp, held.size, mass, lead, start, held.beyond, pace=pace)
     if plan is None:
         return None
     out = plan.pick.out
     size = plan.box.shape.size
     return Load(box, plan.grasp, size, plan.mass, (out,), out.path[-1], plan.beyond)
+
+
+def hangs_as_thought(held: Held, work: Workplace) -> bool:
+    """Whether a held box can be what it was taken for, so that its middle is where it should be.
+
+    One that weighs like no product of its size is another box, or only a part of one was seen;
+    so it may be where a longer product weighs the same.
+    """
+    delivery = work.delivery
+    if not (work.pile.remembered and delivery.lines):
+        return True
+    if max(held.beyond[:2]) > LOOSE:
+        return False
+    product = work.product_of(held.box)
+    if product is not None:
+        return not why_not(product, held.size, held.mass)
+    return any(weighs_like(each, held.mass) for each in plausible(delivery, held.size))
 
 
 def _felt(held: Held, work: Workplace) -> float:

@@ -54,6 +54,7 @@ class Load:
         beyond: how much longer the box may be along its own axes, at either end [m].
         short: how much less high it may be than it is taken to be, held at its top [m].
         rules: that its next motion keeps to.
+        pace: share of the arm's speed that it may move at.
     """
 
     box: BoxId
@@ -65,6 +66,7 @@ class Load:
     beyond: Vector3 = EXACT
     short: float = 0.0
     rules: Rules = NO_RULES
+    pace: float = 1.0
 
     @property
     def bulky(self) -> "Load":

@@ -46,7 +46,7 @@ class Presenting:
             if isinstance(parts, NoMotion):
                 reasons += parts.reasons
                 continue
-            trajectory = planner.timing.along(parts, holding, clear)
+            trajectory = planner.timing.along(parts, holding, clear, load.pace)
             if trajectory is None:
                 continue
             found.append(trajectory)

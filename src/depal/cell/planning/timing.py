@@ -40,9 +40,20 @@ class Timing:
     most: Callable[[], float] = lambda: math.inf
 
     def along(
-        self, parts: Sequence[Part], holding: Holding | None = None, checker: Checker | None = None
+        self,
+        parts: Sequence[Part],
+        holding: Holding | None = None,
+        checker: Checker | None = None,
+        pace: float = 1.0,
     ) -> Trajectory | None:
-        """The fastest trajectory along some parts; None where the suction would not hold."""
+        """The fastest trajectory along some parts; None where the suction would not hold.
+
+        Args:
+            parts: one after the other.
+            holding: what hangs on the cups.
+            checker: corners are rounded where it finds nothing near.
+            pace: further share of the speed.
+        """
         legs = [
             Leg(
                 part.path,
@@ -52,11 +63,11 @@ class Timing:
             )
             for number, part in enumerate(parts)
         ]
-        held = holding if self.cone else None
+        held, speed = holding if self.cone else None, pace * self.speed
         rounded = None if checker is None else checker.path_free
-        timed = time_path(legs, self.layout.robot, held=held, clear=rounded, speed=self.speed)
+        timed = time_path(legs, self.layout.robot, held=held, clear=rounded, speed=speed)
         if timed is not None and not np.isfinite(timed.positions).all():
-            timed = time_path(legs, self.layout.robot, held=held, speed=self.speed)
+            timed = time_path(legs, self.layout.robot, held=held, speed=speed)
         return timed
 
     def _speed_of(self, part: Part, *, first: bool) -> float:

@@ -7,7 +7,7 @@ from depal.cell.breadth import astray
 from depal.cell.choosing import GAVE_UP
 from depal.cell.guards import Guards
 from depal.cell.hand import Phase
-from depal.cell.identity import may_be_two, told_size, why_not
+from depal.cell.identity import fits, may_be_two, told_size, why_not
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
 from depal.cell.primitives.falling import report_loss
@@ -113,8 +113,10 @@ class Checking:
         unsized = work.pile.remembered or box in work.pile.unsized
         reasons = why_not(product, held.size, mass, unsized=unsized)
         if reasons:
+            if work.pile.remembered and not fits(product, held.size, unsized=True):
+                work.unplaceable.add(box)  # where it ends beside the cups nobody knows
             if may_be_two((product,), work.delivery, mass):
-                work.crowded.add(box)
+                work.unplaceable.add(box)
                 reasons = (*reasons, "two boxes weigh so together")
             return self._refuse(box, "; ".join(reasons))
         work.pile.identify(box, gtin)

@@ -1,5 +1,6 @@
 """The primitives of `recover` and `ask_person`: a person decides."""
 
+from depal.cell.departures import Fate
 from depal.cell.planning.desk import Desk
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
@@ -51,6 +52,22 @@ class Minding:
         )
         answer = await self._work.questions.ask(question)
         return Report(((f"{box}.decision", answer),))
+
+    async def ask_to_take(self, context: Context) -> Report:
+        """Asks a person to take a box out of the gripper, and lets go of it."""
+        work, box = self._work, BoxId(context.args["Box"])
+        fault = work.stranded.get(box, "there is no place for it")
+        question = Question(
+            f"hand/{box}",
+            f"The arm cannot put box {box} down: {fault}. Please take it out of the gripper.",
+            (TAKEN,),
+            box,
+        )
+        await work.questions.ask(question)
+        await work.ports.gripper.release()
+        work.unplaceable.discard(box)
+        work.ended(box, Fate.BY_PERSON, reason=work.aside_reasons.get(box, fault))
+        return Report(((f"{box}.taken", False),))
 
     async def carry_on(self, context: Context) -> Report:
         """The box is out of the way: its store is withdrawn, and the pile looked at anew."""

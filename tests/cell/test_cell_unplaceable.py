@@ -1,0 +1,72 @@
+"""A box that turns out to be another than was seen: nobody knows how it hangs, or where it ends."""
+
+from dataclasses import replace
+from unittest import mock
+
+from cells_at_work import PERSON, STORED, Cell, gtin, name, note, pile
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from depal.cell.planning.loads import UNSURE, hangs_as_thought, load_of
+from depal.cell.workplace import Held, Workplace
+from depal.domain import Approach, Grasp
+from depal.geometry import Pose
+from depal.ports import View
+from depal.ports.fakes import FakeSight
+
+ABOVE = Pose((0.0, 0.0, 0.3))
+
+OTHER = (0.16, 0.39, 0.32)
+"""What the first box really is [m]."""
+
+
+class Remembering(FakeSight):
+    """A sight that measures with cameras, and errs."""
+
+    async def look(self) -> View:
+        """All that is believed."""
+        return replace(await FakeSight.look(self), remembered=True)
+
+
+def seen_wrongly() -> Cell:
+    """Three boxes; the first is as large as the others where it was seen, and is another."""
+    cell = Cell(3, unknown=[1])
+    cell.sight = Remembering([pile(3, [1])])
+    cell.work.ports = replace(cell.work.ports, sight=cell.sight)
+    first, *others = note(3).lines
+    line = replace(first, product=replace(first.product, size=OTHER))
+    cell.work.delivery = replace(note(3), lines=(line, *others))
+    cell.reader.script = ((gtin(1),),) * 4
+    cell.person.delay = 100.0
+    return cell
+
+
+def test_a_person_takes_it_out_of_the_gripper_and_nothing_moves_before() -> None:
+    """It comes into no place, not even the one for exceptions."""
+    cell = seen_wrongly().works()
+    assert cell.blunders == []
+    assert cell.fates == {"b1": PERSON, "b2": STORED, "b3": STORED}
+    assert "product product-1 is 160 x 390 x 320 mm" in cell.person.asked[0].text
+
+
+def held(mass: float, beyond: float = 0.0) -> Held:
+    """The first box, in a gripper."""
+    grasp = Grasp(Approach.VERTICAL, folded=False, box_from_flange=ABOVE, cups=(("lower", 0),))
+    return Held(name(1), grasp, pile(1)[0].shape.size, mass, (beyond, 0.0, 0.0))
+
+
+@settings(max_examples=20)
+@given(st.floats(0.5, 20.0), st.floats(0.0, 0.2))
+def test_what_weighs_like_nothing_of_its_size_or_may_be_longer_moves_slowly(
+    mass: float, beyond: float
+) -> None:
+    """Its middle is not where it was thought to be; a sight that is exact leaves no doubt."""
+    cell = Cell(1, unknown=[1])
+    cell.work.held = held(mass, beyond)
+    with mock.patch.object(Workplace, "product_of", return_value=None):
+        assert hangs_as_thought(cell.work.held, cell.work)
+        cell.work.pile.see(View(0.0, pile(1, [1]), remembered=True))
+        load = load_of(name(1), cell.work, None)
+    sure = abs(mass - 4.0) <= 0.6 and beyond <= 0.04
+    assert load is not None
+    assert load.pace == (1.0 if sure else UNSURE)
