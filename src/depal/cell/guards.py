@@ -9,6 +9,9 @@ from depal.ports import LOST, Arm, Gripper, Guard, Safety, Watch
 KEPT = 0.5
 """A module whose vacuum falls below this share of what it was has lost its hold."""
 
+PRESSING = 2.0
+"""Where something carries so much of the tool it touches it [kg]."""
+
 TOUCHED = 0.6
 """The share of a box's weight that still hangs on the arm when it counts as standing."""
 
@@ -64,6 +67,14 @@ class Guards:
             return lambda: LOST
         least = tuple((name, KEPT * value) for name, value in before.items() if value > 0.0)
         return Watching(self._arm, self._gripper, Watch(least, until), more)
+
+    def touching(self, *more: Callable[[], str | None]) -> Guard:
+        """An empty tool presses on something.
+
+        Args:
+            more: further reasons to stop.
+        """
+        return Watching(self._arm, self._gripper, Watch(load=-PRESSING), more)
 
     def setting_down(self, mass: float) -> Guard:
         """The vacuum breaks, or the box that is being set down no longer hangs on the arm."""

@@ -8,7 +8,7 @@ from depal.domain import Cup, Tool
 from depal.domain.cup_group import CupGroup
 from depal.simulation.holds import ROWS, TURN_SCALE, Broken, Hold, Valve
 from depal.simulation.model import WELDS, CellModel
-from depal.simulation.sealing import Solids, cups_in_cell, sealed
+from depal.simulation.sealing import Solids, cups_in_cell, pressed, sealed
 
 Floats = npt.NDArray[np.float64]
 
@@ -136,6 +136,20 @@ class SuctionState:
     def lift(self) -> float:
         """What hangs on the tool [N]."""
         return sum(hold.lift for hold in self.holds)
+
+    def push(self) -> float:
+        """The force with which bellows that are pressed in lift the tool [N]."""
+        solids, suction, total = self.solids(), self.tool.suction, 0.0
+        if not len(solids.centres):
+            return 0.0
+        centre = self.data.xpos[self.model.tool_body]
+        rotation = self.data.xmat[self.model.tool_body].reshape(3, 3)
+        for each in self.tool.modules:
+            module = self.tool.module(each.name, folded=self.folded)
+            points, face = cups_in_cell(module, tuple(range(len(module.cups))), centre, rotation)
+            deep = pressed(points, face[:, 0], solids, suction.cup_radius, suction.stroke)
+            total -= suction.stiffness * float(deep.sum()) * float(face[2, 0])
+        return total
 
     def _level(self, name: str, good: int) -> float:
         """The vacuum that a module will reach when so many of its open cups seal [Pa]."""

@@ -202,8 +202,9 @@ class World:
         return self._motion.positions[row], self._motion.velocities[row]
 
     def load(self) -> float:
-        """What the load cell reads, noise included [kg]."""
-        return self._load / G + float(self._noise.normal(0.0, 0.01))
+        """What the load cell reads, noise included [kg]; less where empty cups press on a box."""
+        pushed = 0.0 if self.suction.holds else self.suction.push()
+        return (self._load - pushed) / G + float(self._noise.normal(0.0, 0.01))
 
     def fold(self, *, up: bool) -> None:
         """Puts the lower module up or down."""

@@ -96,7 +96,7 @@ class Taking:
         ports = self._work.ports
         size = plan.box.shape.size
         self._work.begins(Hand(box, plan.grasp, size, plan.mass, Phase.GRASPING))
-        came = await sucked(self._work, self._desk, plan)
+        came = await sucked(self._work, self._desk, plan, self._guards)
         self._work.modules.tried(box, {name for name, _ in plan.grasp.cups}, ports.gripper.vacuum())
         if not came:
             self._tell_a_seam(plan)
