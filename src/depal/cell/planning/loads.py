@@ -10,10 +10,11 @@ from depal.cell.planning.timing import stands_at
 from depal.cell.workplace import Held, Workplace
 from depal.domain import BoxId, Delivery, Perceived, Recognition
 from depal.geometry import Vector3
+from depal.motion.grasping import EXACT
 
-UNSURE = 0.35
-"""A box of which nobody knows where its middle is moves at this share of the speed, so that what
-accelerates it is an eighth."""
+WARY, UNSURE = 0.6, 0.35
+"""Shares of the speed at which boxes move that no print has named, and those of which nobody knows
+where their middle is; what accelerates them is about a third and an eighth."""
 
 LOOSE = 0.04
 """Nobody knows where the middle is of a box that may be longer by more than this [m]."""
@@ -35,7 +36,7 @@ def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
         here = np.array(work.ports.arm.joints())
         lifted = plan is not None and stands_at(here, plan.pick.lift.path[-1])
         lead, start = ((plan.pick.out,), plan.pick.out.path[-1]) if plan and lifted else ((), here)
-        pace = 1.0 if hangs_as_thought(held, work) else UNSURE
+        pace = pace_of(held, work)
         mass = _felt(held, work)
         return Load(box, held.grasp, held.size, mass, lead, start, held.beyond, pace=pace)
     if plan is None:
@@ -43,6 +44,13 @@ def load_of(box: BoxId, work: Workplace, plan: PickPlan | None) -> Load | None:
     out = plan.pick.out
     size = plan.box.shape.size
     return Load(box, plan.grasp, size, plan.mass, (out,), out.path[-1], plan.beyond)
+
+
+def pace_of(held: Held, work: Workplace) -> float:
+    """The share of the speed at which a held box may move, by how well it is known how it hangs."""
+    if not hangs_as_thought(held, work):
+        return UNSURE
+    return 1.0 if held.beyond == EXACT else WARY
 
 
 def hangs_as_thought(held: Held, work: Workplace) -> bool:
