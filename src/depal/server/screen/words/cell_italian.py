@@ -117,6 +117,7 @@ CELL_ITALIAN: Final[tuple[tuple[str, str], ...]] = (
     ("the last look did not show it", "l'ultima immagine non la mostra"),
     ("no product of the note has its size", "nessun prodotto della bolla ha la sua misura"),
     ("it lies on the floor", "è a terra"),
+    ("there is no place for it", "non c'è posto per lei"),
     ("the barcode was not read", "il codice non è stato letto"),
     ("no look showed it", "non si è mai vista"),
     # What cannot be done
