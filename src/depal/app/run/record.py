@@ -12,10 +12,10 @@ from collections.abc import Sequence
 from dataclasses import asdict
 from enum import Enum
 from pathlib import Path
-from types import TracebackType
 from typing import Self
 
 from depal.cell.reporting import ChoiceNote, Journalist
+from depal.closing import Closing
 from depal.errors import JournalError, UnwrittenError
 from depal.executive import events as ev
 from depal.executive.events import encode
@@ -31,7 +31,7 @@ def said(value: object) -> object:
     return value.value if isinstance(value, Enum) else str(value)
 
 
-class Keeper:
+class Keeper(Closing):
     """Keeps what happens in a run, in a folder or in memory."""
 
     def __init__(self, folder: Path | None, journal: SqliteJournal | MemoryJournal) -> None:
@@ -92,15 +92,6 @@ class Keeper:
     def _chosen(self, note: ChoiceNote) -> None:
         self.choices.append(note)
 
-    def __enter__(self) -> Self:
-        """The keeper itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def close(self) -> None:
         """Closes the journal."""
         self._journal.close()

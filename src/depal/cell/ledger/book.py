@@ -2,19 +2,18 @@
 
 import sqlite3
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
 import msgspec
 
 from depal.cell.ledger.page import Page
+from depal.closing import Closing
 from depal.errors import JournalError
 
 LAYOUT = 1
 """Of the pages that this depal writes."""
 
 
-class Ledger:
+class Ledger(Closing):
     """The last page of a run, in a file of its own."""
 
     def __init__(self, path: Path) -> None:
@@ -69,16 +68,3 @@ class Ledger:
     def close(self) -> None:
         """Lets go of the file."""
         self._connection.close()
-
-    def __enter__(self) -> Self:
-        """The ledger itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()

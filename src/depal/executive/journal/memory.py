@@ -1,14 +1,13 @@
 """A journal that is forgotten with the process: for tests and studies."""
 
 from collections.abc import Iterator, Sequence
-from types import TracebackType
-from typing import Self
 
+from depal.closing import Closing
 from depal.errors import JournalError
 from depal.executive.journal.records import Entry, Record, Snapshot, check_covered, checked
 
 
-class MemoryJournal:
+class MemoryJournal(Closing):
     """Behaves as `SqliteJournal` does, without a file."""
 
     def __init__(self) -> None:
@@ -85,19 +84,6 @@ class MemoryJournal:
     def close(self) -> None:
         """Lets go of the journal; `records`, `commits` and `cut` stay."""
         self._closed = True
-
-    def __enter__(self) -> Self:
-        """The journal itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()
 
     def _check_open(self) -> None:
         if self._closed:

@@ -5,9 +5,8 @@ import zlib
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
-from typing import Self
 
+from depal.closing import Closing
 from depal.errors import JournalError
 from depal.executive.journal.chain import GENESIS, damaged, forge, seal, sealed, walk
 from depal.executive.journal.lock import WriterLock
@@ -30,7 +29,7 @@ _SELECT = (
 )
 
 
-class SqliteJournal:
+class SqliteJournal(Closing):
     """A journal that outlives the process and, where asked, a power cut.
 
     One writer, any number of readers at the same time. Used by the thread that opened it.
@@ -154,19 +153,6 @@ class SqliteJournal:
             self._connection = None
             if self._lock is not None:
                 self._lock.release()
-
-    def __enter__(self) -> Self:
-        """The journal itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()
 
     def _open(self) -> sqlite3.Connection:
         if self._connection is None:

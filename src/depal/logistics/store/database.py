@@ -4,8 +4,7 @@ import sqlite3
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
-from types import TracebackType
-from typing import Any, Self
+from typing import Any
 
 from alembic import command
 from alembic.config import Config
@@ -17,6 +16,7 @@ from sqlalchemy.exc import ArgumentError, SQLAlchemyError
 from sqlalchemy.orm import Session
 from sqlalchemy.pool import StaticPool
 
+from depal.closing import Closing
 from depal.errors import DeviceError, SettingError
 from depal.logistics.store.served_tables import QueuedRow
 
@@ -32,7 +32,7 @@ BUSY = 10_000
 """A transaction waits so long for another one to end [ms]."""
 
 
-class Database:
+class Database(Closing):
     """A database with the tables of the store's data.
 
     A file may be used by several threads and processes at once: each transaction has a connection
@@ -96,19 +96,6 @@ class Database:
     def close(self) -> None:
         """Lets go of it; closing twice is allowed."""
         self._engine.dispose()
-
-    def __enter__(self) -> Self:
-        """The database itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()
 
     def _prepare(self) -> None:
         found = set(inspect(self._engine).get_table_names())

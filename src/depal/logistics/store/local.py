@@ -2,9 +2,8 @@
 
 import asyncio
 from collections.abc import Iterable, Mapping, Sequence
-from types import TracebackType
-from typing import Self
 
+from depal.closing import Closing
 from depal.domain import BoxId, Delivery, Gtin, Place, PlaceId, Product, Request
 from depal.logistics.store.assignment import assign_places
 from depal.logistics.store.catalogue import (
@@ -30,7 +29,7 @@ from depal.logistics.store.stock import keep_movement, read_movements, read_stoc
 from depal.ports import Movement
 
 
-class LocalStore:
+class LocalStore(Closing):
     """A `StoreSystem` over a database; its other methods are for whoever keeps the data."""
 
     def __init__(self, database: Database | None = None, *, delay: float = 0.0) -> None:
@@ -178,19 +177,6 @@ class LocalStore:
     def close(self) -> None:
         """Lets go of the database; closing twice is allowed."""
         self.database.close()
-
-    def __enter__(self) -> Self:
-        """The store itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()
 
     async def _answer_time(self) -> None:
         if self._delay > 0.0:

@@ -1,9 +1,8 @@
 """A disk that takes nothing any more."""
 
 from collections.abc import Iterator, Sequence
-from types import TracebackType
-from typing import Self
 
+from depal.closing import Closing
 from depal.errors import JournalError
 from depal.executive.journal import Entry, Journal, Record, Snapshot
 from depal.simulation.faults.catalogue import Phase
@@ -12,7 +11,7 @@ from depal.simulation.faults.chances import Chances
 FULL = "nothing was written: the disk is full; make room"
 
 
-class FaultyJournal:
+class FaultyJournal(Closing):
     """C3 of the executive's journal: the disk is full until a person has made room."""
 
     def __init__(self, journal: Journal, chances: Chances) -> None:
@@ -48,19 +47,6 @@ class FaultyJournal:
     def close(self) -> None:
         """Lets go of the journal."""
         self._journal.close()
-
-    def __enter__(self) -> Self:
-        """The journal itself."""
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        """Closes it."""
-        self.close()
 
 
 def refuse(chances: Chances) -> None:
