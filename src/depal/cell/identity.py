@@ -19,8 +19,9 @@ EDGES = 3
 HIGHER = 0.05
 """So much higher than the highest product of the note a box of another one may be [m]."""
 
-ALIKE = 0.015
-"""Two ways to turn a product fit equally well when they differ by less [m]."""
+ALIKE = 0.04
+"""A box that no print has named may lie either way where the two differ by less [m]: of a nearly
+square one the sides are soon taken for each other."""
 
 NOTICED = 0.004
 """An edge that was seen wrong by less leaves no doubt where the box is [m]."""
