@@ -7,16 +7,18 @@ from depal.cell.breadth import astray
 from depal.cell.choosing import GAVE_UP
 from depal.cell.guards import Guards
 from depal.cell.hand import Phase
-from depal.cell.identity import fits, may_be_two, told_size, why_not
+from depal.cell.identity import fits, may_be_two, told_size, weighs_like, why_not
+from depal.cell.mistaken import sizes_of_the_mistaken
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import ShowPlan
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.taking import ARM_AT
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Gtin
+from depal.domain import BoxId, Gtin, Product
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
+from depal.geometry import Vector3
 from depal.logistics.gtin import gtin_fault
 from depal.motion.grasping import resized
 from depal.ports import Question
@@ -115,6 +117,7 @@ class Checking:
         if reasons:
             if work.pile.remembered and not fits(product, held.size, unsized=True):
                 work.unplaceable.add(box)  # where it ends beside the cups nobody knows
+                self._tell_of_the_like(product, held.size, mass)
             if may_be_two((product,), work.delivery, mass):
                 work.unplaceable.add(box)
                 reasons = (*reasons, "two boxes weigh so together")
@@ -123,6 +126,8 @@ class Checking:
         too_many = work.surplus(gtin)
         if too_many is not None:
             return self._refuse(box, too_many)
+        if work.pile.remembered and not fits(product, held.size):
+            self._tell_of_the_like(product, held.size, mass)
         size, beyond = told_size(product.size, held.size)
         if work.pile.remembered:  # what it is does not tell where it was
             beyond = astray(beyond, unsized=held.beyond[2] > 0.0)
@@ -133,6 +138,16 @@ class Checking:
         work.aside_reasons.pop(box, None)
         work.wishes.identified(box, gtin, work.now)
         return Report(((f"{box}.known", True), (f"{box}.product", str(gtin))))
+
+    def _tell_of_the_like(self, product: Product, seen: Vector3, mass: float) -> None:
+        """What looks like a box that turned out to be another one may be one of those too."""
+        work = self._work
+        if not weighs_like(product, mass):
+            return
+        pile, delivery = work.pile, work.delivery
+        sizes = sizes_of_the_mistaken(seen, product, pile.boxes, delivery, pile.left_as)
+        for box, size in sizes.items():
+            pile.resize(box, size)
 
     def _refuse(self, box: BoxId, reason: str) -> Report:
         """Nothing is stored under a name that something speaks against."""
