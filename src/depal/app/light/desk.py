@@ -228,6 +228,16 @@ class LightFeeling:
         """The plan's lift."""
         return plan.lift
 
+    def early(self, plan: PickPlan) -> float:
+        """Boxes are as high as they look."""
+        del plan
+        return 0.0
+
+    def out(self, plan: PickPlan) -> Trajectory | None:
+        """No way."""
+        del plan
+        return None
+
     def under_cups(self, plan: PickPlan) -> OrientedBox:
         """The whole top."""
         shape = plan.box.shape

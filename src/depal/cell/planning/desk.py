@@ -139,8 +139,16 @@ class Feels(Protocol):
         """Straight along the approach by so much [m]; None where something is in the way."""
         ...
 
+    def early(self, plan: PickPlan) -> float:
+        """How far above the plane of touch the arm stands, on something that is higher [m]."""
+        ...
+
     def lift(self, plan: PickPlan) -> Trajectory:
         """The plan's lift from where the cups have sealed."""
+        ...
+
+    def out(self, plan: PickPlan) -> Trajectory | None:
+        """As far as the plan's way out of the pile, from where a box hangs that was higher."""
         ...
 
     def under_cups(self, plan: PickPlan) -> OrientedBox:

@@ -8,6 +8,8 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased
 from depal.cell.workplace import Workplace
 from depal.geometry import OrientedBox, Pose
+from depal.motion.collision.values import Array
+from depal.motion.grasping import Holding
 from depal.motion.moves import CLOSE, Kind, Part
 from depal.motion.moves.picking import into_face
 from depal.motion.planning.straight import straight
@@ -15,6 +17,9 @@ from depal.ports import Trajectory
 
 FINE = 0.003
 """Of the paths [m]."""
+
+HIGHER = 0.015
+"""Where cups have sealed so far above the plane of touch, the box is higher than it looked [m]."""
 
 THIN = 0.002
 """A flat place is so deep [m]."""
@@ -43,13 +48,39 @@ class Feeling:
             return None
         return planner.timing.slowly(Part(Kind.STRAIGHT, path, touching=True))
 
+    def early(self, plan: PickPlan) -> float:
+        """How far above the plane of touch the arm stands, on something that is higher [m]."""
+        flange = self._planner.mover.body.kinematics.flange
+        here, there = flange(self._planner.here), flange(plan.pick.approach[-1].path[-1])
+        return here.translation[2] - there.translation[2]
+
     def lift(self, plan: PickPlan) -> Trajectory:
-        """The plan's lift from where the cups have sealed."""
+        """The plan's lift from where the cups have sealed; as far up from a face that is higher."""
         planner, part = self._planner, plan.pick.lift
         if np.allclose(planner.here, part.path[0], atol=1e-4):
             return plan.lift
         path = rebased(part.path, planner.here)
+        if plan.feeling and self.early(plan) > HIGHER:
+            up = self._as_far(part)
+            path = path if up is None else up
         return planner.timing.slowly(Part(part.kind, path, part.touching)) or plan.lift
+
+    def out(self, plan: PickPlan) -> Trajectory | None:
+        """As far as the plan's way out of the pile, from where a box hangs that was higher."""
+        planner, part = self._planner, plan.pick.out
+        path = self._as_far(part)
+        if path is None:
+            return None
+        size = plan.box.shape.size
+        holding = Holding.of(plan.grasp, plan.mass, self._work.layout.tool, size=size)
+        return planner.timing.along([Part(part.kind, path, part.touching)], holding)
+
+    def _as_far(self, part: Part) -> Array | None:
+        """Straight from where the arm stands, as a straight part goes from where it begins."""
+        kinematics = self._planner.mover.body.kinematics
+        begin, end = (kinematics.flange(row).translation for row in (part.path[0], part.path[-1]))
+        x, y, z = np.subtract(end, begin).tolist()
+        return straight(kinematics, self._planner.here, (x, y, z), pitch=FINE)
 
     def under_cups(self, plan: PickPlan) -> OrientedBox:
         """The flat place that the plan's cups touch where the arm stands, in the cell frame."""

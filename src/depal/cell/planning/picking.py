@@ -4,6 +4,7 @@ import asyncio
 import math
 from collections.abc import Iterator
 from collections.abc import Set as AbstractSet
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.rules import TAKING, Rules, rules_on
 from depal.cell.workplace import Workplace
-from depal.domain import BoxId, Grasp, Perceived, PlaceId, Recognition
+from depal.domain import Approach, BoxId, Detection, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox, Vector3
 from depal.motion.collision import Scene
 from depal.motion.grasping import EXACT, Holding, grasps
@@ -26,6 +27,12 @@ from depal.ports import Trajectory
 
 ROOM = 0.03
 """With a sight that errs a box is taken straight on until so much around it is clear [m]."""
+
+BESIDE = 0.5
+"""Boxes whose middles are no farther from that of another may be under a tool that takes it [m]."""
+
+FEELING = 0.25
+"""So fast the flange comes down where something may be higher than it looks [m/s]."""
 
 MOVED = 0.008
 """A plan is good for a box that is seen this far from where it was planned for [m]."""
@@ -159,11 +166,27 @@ class Picking:
         planner = self._planner
         empty = planner.mover.checker(scene, OPEN, folded=pick.grasp.folded)
         holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
-        approach = planner.timing.along(pick.approach, checker=empty)
+        feeling = self._feels(box, pick.grasp)
+        *free, down = pick.approach
+        ways = (*free, replace(down, most=FEELING)) if feeling else pick.approach
+        approach = planner.timing.along(ways, checker=empty)
         lift = planner.timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
             return "the suction would not hold it"
-        return PickPlan(box, mass, pick, approach, lift, beyond, rules)
+        return PickPlan(box, mass, pick, approach, lift, beyond, rules, feeling)
+
+    def _feels(self, box: Perceived, grasp: Grasp) -> bool:
+        """Whether something below the tool may be higher than it looks: no print has named it."""
+        pile = self._work.pile
+        return (
+            pile.remembered
+            and grasp.approach is Approach.VERTICAL
+            and any(
+                isinstance(other, Detection)
+                and math.dist(other.shape.centre[:2], box.shape.centre[:2]) < BESIDE
+                for other in pile.boxes
+            )
+        )
 
     async def pick(self, box: BoxId) -> PickPlan | str:
         """The pick of a box from where the arm stands; planned anew where the kept one is off.

@@ -24,6 +24,7 @@ class PickPlan:
         lift: off what it stands on.
         beyond: how much longer the box may be along its own axes, at either end [m].
         rules: that it keeps to.
+        feeling: whether the approach ends where the cups touch something, wherever that is.
     """
 
     box: Perceived
@@ -33,6 +34,7 @@ class PickPlan:
     lift: Trajectory
     beyond: Vector3 = EXACT
     rules: Rules = NO_RULES
+    feeling: bool = False
 
     @property
     def grasp(self) -> Grasp:

@@ -75,7 +75,7 @@ class Timing:
 
         The share shrinks it further, so a limit that is absolute grows by it first.
         """
-        speeds, most = self.layout.speeds, self.most() / self.speed
+        speeds, most = self.layout.speeds, min(self.most(), part.most) / self.speed
         if part.kind is Kind.FREE:
             return min(speeds.flange, most)
         return min(speeds.straight * (GENTLE if first and part.touching else 1.0), most)

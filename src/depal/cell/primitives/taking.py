@@ -19,8 +19,10 @@ from depal.cell.identity import (
 )
 from depal.cell.payload import Payload
 from depal.cell.planning.desk import Desk
+from depal.cell.planning.feeling import HIGHER
 from depal.cell.planning.plans import PickPlan
-from depal.cell.primitives.feeling import seals, sucked
+from depal.cell.primitives.falling import report_loss
+from depal.cell.primitives.feeling import CLOSER, seals, sucked
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.standing import Firmness
 from depal.cell.workplace import Held, Workplace
@@ -29,6 +31,7 @@ from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
 from depal.motion.grasping import EXACT
+from depal.ports import STANDS
 
 ARM_AT = "kr60.at"
 
@@ -84,10 +87,21 @@ class Taking:
         if ports.gripper.folded() != plan.grasp.folded:
             await ports.gripper.fold(up=plan.grasp.folded)
         await context.checkpoint()
-        stopped = await ports.arm.follow(plan.approach, self._guards.asked_to_stop(context))
+        stopped = await self._approach(context, plan)
         if stopped is not None:
             return Report(outcome=Outcome.FAILED, reason=stopped)
         return Report(((ARM_AT, box),))
+
+    async def _approach(self, context: Context, plan: PickPlan) -> str | None:
+        """To the plane of touch, or to where the cups touch something before; why it stopped."""
+        follow, guards = self._work.ports.arm.follow, self._guards
+        if not plan.feeling:
+            return await follow(plan.approach, guards.asked_to_stop(context))
+        stopped = await follow(plan.approach, guards.touching(lambda: context.stop_reason))
+        if stopped != STANDS:
+            return stopped
+        closer = self._desk.feeling.nearer(plan, CLOSER)
+        return None if closer is None else await follow(closer, guards.asked_to_stop(context))
 
     async def grasp(self, context: Context) -> Report:
         """Suction on, then a short lift; retreats where the vacuum does not come."""
@@ -101,6 +115,7 @@ class Taking:
         if not came:
             self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
+        early = self._desk.feeling.early(plan) if plan.feeling else 0.0
         lift = self._desk.feeling.lift(plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
         await asyncio.sleep(SWINGING)
@@ -113,8 +128,14 @@ class Taking:
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
             unsized = box in self._work.pile.unsized
             beyond = astray(beyond_seen(self._work.delivery, size, mass), unsized=unsized)
+        if early > HIGHER:  # it stands as low as it was thought to, and is so much higher
+            beyond = (*beyond[:2], max(beyond[2], early))
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
+        out = self._desk.feeling.out(plan) if early > HIGHER else None
+        lost = None if out is None else await ports.arm.follow(out, self._guards.holding())
+        if lost is not None:
+            return await report_loss(self._work, box, lost)
         return Report(((f"{box}.taken", True),))
 
     async def _looked_at_anew(self, box: BoxId) -> str | None:

@@ -1,5 +1,6 @@
 """What planning hands out: paths in named parts, or the reasons why there are none."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import Enum
@@ -25,11 +26,13 @@ class Part:
         kind: free, with corners between which the axes move evenly, or a straight move.
         path: (n, 6) [rad]; it begins where the part before ended.
         touching: whether the held box may touch what it stands beside or on.
+        most: the flange is no faster here [m/s].
     """
 
     kind: Kind
     path: Array
     touching: bool = False
+    most: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
