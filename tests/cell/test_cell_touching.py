@@ -1,0 +1,77 @@
+"""A tool that comes down on a box that is higher than it looked stops where its cups touch it."""
+
+import math
+from dataclasses import replace
+
+import pytest
+from cells_at_work import DECK, SIZE, STORED, Cell, name
+
+from depal.domain import Detection
+from depal.geometry import OrientedBox
+from depal.motion.kinematics import Kinematics
+from depal.ports import View
+from depal.ports.fakes import FakeSight
+
+PRESSES = -9.0
+"""What the load cell reads while cups are pressed in [kg]."""
+
+
+class Remembering(FakeSight):
+    """A sight that measures with cameras, and errs."""
+
+    async def look(self) -> View:
+        """All that is believed."""
+        return replace(await FakeSight.look(self), remembered=True)
+
+
+class Higher:
+    """A cell with one box without a name, which is higher than it was seen.
+
+    Attributes:
+        cell: at work.
+        lowest: how deep the flange was beyond where the cups first touched, before they held [m].
+        beyond: how much longer the held box was believed to be, upright, at the most [m].
+    """
+
+    def __init__(self, more: float) -> None:
+        """So much higher [m]."""
+        self.cell = cell = Cell(1, unknown=[1])
+        low = OrientedBox.upright((1.55, -0.45, DECK + SIZE[2] / 2), SIZE)
+        cell.sight = Remembering([(Detection(name(1), low),)])
+        cell.work.ports = replace(cell.work.ports, sight=cell.sight)
+        cell.arm.hanging = self._load
+        cell.reader.script = (("product-1",),) * 8
+        self._flange = Kinematics(cell.layout.robot).flange
+        self._more, self.lowest, self.beyond = more, 0.0, 0.0
+
+    def _load(self) -> float:
+        held = self.cell.gripper.load()
+        if self.cell.work.held is not None:
+            self.beyond = max(self.beyond, self.cell.work.held.beyond[2])
+        if held:
+            return held
+        deep = self._deep()
+        self.lowest = max(self.lowest, deep)
+        return PRESSES if deep > 0.0 else 0.0
+
+    def _deep(self) -> float:
+        """How far the cups are pressed in, of a flange that points down over the box [m]."""
+        plan = self.cell.desk.promises.pick_of(name(1))
+        if plan is None:
+            return -math.inf
+        here = self._flange(self.cell.arm.at).translation
+        there = self._flange(plan.pick.approach[-1].path[-1]).translation
+        if math.dist(here[:2], there[:2]) > 0.01:
+            return -math.inf
+        return there[2] + self._more + 0.01 - here[2]
+
+
+@pytest.mark.parametrize("more", [0.0, 0.02, 0.05])
+def test_the_tool_stops_where_its_cups_touch_and_the_box_is_taken(more: float) -> None:
+    """Its bellows give by 2 cm; what is higher is carried with room for that."""
+    higher = Higher(more)
+    higher.cell.works().assert_whole()
+    assert higher.cell.fates == {"b1": STORED}
+    assert 0.0 < higher.lowest < 0.018
+    if more > 0.02:
+        assert higher.beyond > more - 0.01
