@@ -4,9 +4,10 @@ import math
 from dataclasses import replace
 
 import pytest
-from cells_at_work import DECK, SIZE, STORED, Cell, name
+from cells_at_work import DECK, PERSON, SIZE, STORED, Cell, name
 
 from depal.domain import Detection
+from depal.executive import events as ev
 from depal.geometry import OrientedBox
 from depal.motion.kinematics import Kinematics
 from depal.ports import View
@@ -75,3 +76,14 @@ def test_the_tool_stops_where_its_cups_touch_and_the_box_is_taken(more: float) -
     assert 0.0 < higher.lowest < 0.018
     if more > 0.02:
         assert higher.beyond > more - 0.01
+
+
+def test_what_stands_far_above_a_box_is_backed_off_from() -> None:
+    """Nobody has seen it; the box is left to a person after a few tries, and nothing is pressed."""
+    higher = Higher(0.085)
+    higher.cell.works()
+    assert higher.cell.blunders == []
+    assert higher.cell.fates == {"b1": PERSON}
+    assert higher.lowest < 0.018
+    ends = [event for event in higher.cell.events if isinstance(event, ev.Ended)]
+    assert any("above box b1" in end.reason for end in ends)

@@ -51,6 +51,9 @@ SAME = 1
 LOOKING = 1.0
 """While no further box is begun it is looked this often whether this one is wanted still [s]."""
 
+FAR, BACK = 0.08, 0.05
+"""What cups touch so far above a box is another one, from which the tool backs off so far [m]."""
+
 SWINGING = 0.06
 """After the lift the load swings so long before it is weighed [s]."""
 
@@ -100,7 +103,15 @@ class Taking:
         stopped = await follow(plan.approach, guards.touching(lambda: context.stop_reason))
         if stopped != STANDS:
             return stopped
-        closer = self._desk.feeling.nearer(plan, CLOSER)
+        feeling, box = self._desk.feeling, plan.box.id
+        early = feeling.early(plan)
+        if early > FAR:
+            back = feeling.nearer(plan, -BACK)
+            if back is not None:
+                await follow(back, guards.asked_to_stop(context))
+            self._work.doubted.setdefault(box, frozenset())
+            return f"something stands {early:.2f} m above box {box}"
+        closer = feeling.nearer(plan, CLOSER)
         return None if closer is None else await follow(closer, guards.asked_to_stop(context))
 
     async def grasp(self, context: Context) -> Report:
