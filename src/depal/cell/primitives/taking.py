@@ -1,6 +1,7 @@
 """The primitives of `take`: reach the box, grasp it, lift it off."""
 
 import asyncio
+from collections.abc import Mapping
 from contextlib import suppress
 
 from depal.cell.breadth import astray
@@ -41,6 +42,9 @@ LIGHT = 0.25
 NOTHING = 0.15
 """Where nobody knows what to expect, less than this is nothing [kg]."""
 
+
+TORN = 0.9
+"""A module whose vacuum falls below this share of what it was has lost a cup's hold."""
 
 TWICE = 2
 """What weighs like two boxes is put back so often; then it is one of another weight."""
@@ -127,12 +131,13 @@ class Taking:
             self._tell_a_seam(plan)
             return await self._let_go(plan, "the vacuum did not come")
         early = self._desk.feeling.early(plan) if plan.feeling else 0.0
+        sealed = ports.gripper.vacuum()
         lift = self._desk.feeling.lift(plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
         await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
         slipped = slipped or self._payload.felt(box, mass, context.limits())
-        slipped = slipped or self._wrong_weight(plan, mass)
+        slipped = slipped or self._torn(plan, sealed) or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped)
         beyond = EXACT
@@ -160,6 +165,21 @@ class Taking:
         if work.pile.get(box) is None or box in work.pile.hidden:
             return f"box {box} is not seen on the pallet any more"
         return None
+
+    def _torn(self, plan: PickPlan, sealed: Mapping[str, float]) -> str | None:
+        """What hangs on some of the cups that had sealed is held beside its middle.
+
+        Args:
+            plan: of the box.
+            sealed: the vacuum of each module before the lift [Pa].
+        """
+        if not self._work.pile.remembered:
+            return None
+        now = self._work.ports.gripper.vacuum()
+        if all(now[name] >= TORN * value for name, value in sealed.items()):
+            return None
+        self._tell_a_seam(plan)
+        return "some of the cups have lost their hold"
 
     def _tell_a_seam(self, plan: PickPlan) -> None:
         """Where some cups seal and others do not, no one face is under all of them."""
