@@ -99,6 +99,7 @@ def test_every_action_belongs_to_a_task(cell: Repository) -> None:
     assert roots == {
         *("store", "depalletize", "move", "exchange", "set_aside", "ask_person", "recover"),
         "restart_arm",
+        "hand_over",
     }
 
 
