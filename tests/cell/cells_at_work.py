@@ -36,7 +36,7 @@ from depal.executive.clock import LoopClock, run_simulated
 from depal.executive.journal import Journal
 from depal.geometry import OrientedBox, Vector3
 from depal.logistics.placing import Standing
-from depal.ports import Question
+from depal.ports import Question, View
 from depal.ports.fakes import (
     FakeArm,
     FakeBays,
@@ -66,6 +66,14 @@ BROKEN = r"(?!DeviceError)\w+(Error|Exception): "
 
 LONG = 20_000.0
 """A run that is not over by then never ends [s]."""
+
+
+class Remembering(FakeSight):
+    """A sight that measures with cameras, and errs."""
+
+    async def look(self) -> View:
+        """All that is believed."""
+        return replace(await FakeSight.look(self), remembered=True)
 
 
 def gtin(number: int) -> Gtin:

@@ -4,25 +4,15 @@ import math
 from dataclasses import replace
 
 import pytest
-from cells_at_work import DECK, PERSON, SIZE, STORED, Cell, name
+from cells_at_work import DECK, PERSON, SIZE, STORED, Cell, Remembering, name
 
 from depal.domain import Detection
 from depal.executive import events as ev
 from depal.geometry import OrientedBox
 from depal.motion.kinematics import Kinematics
-from depal.ports import View
-from depal.ports.fakes import FakeSight
 
 PRESSES = -9.0
 """What the load cell reads while cups are pressed in [kg]."""
-
-
-class Remembering(FakeSight):
-    """A sight that measures with cameras, and errs."""
-
-    async def look(self) -> View:
-        """All that is believed."""
-        return replace(await FakeSight.look(self), remembered=True)
 
 
 class Higher:

@@ -4,7 +4,7 @@ import asyncio
 from dataclasses import dataclass, replace
 
 import pytest
-from cells_at_work import DECK, Cell, name
+from cells_at_work import DECK, Cell, Remembering, name
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,21 +12,12 @@ from depal.cell.departures import Fate
 from depal.cell.feedback import Feedback
 from depal.domain import EURO_PALLET, Cup, Delivery, DeliveryLine, Detection, Gtin, Product
 from depal.geometry import OrientedBox
-from depal.ports import View
-from depal.ports.fakes import FakeGripper, FakeSight
+from depal.ports.fakes import FakeGripper
 
 TORN_AFTER = 0.4
 """After the valves were opened the arm lifts what it holds by then [s]."""
 
 LOW, HIGH = (0.28, 0.25, 0.19), (0.56, 0.25, 0.22)
-
-
-class Remembering(FakeSight):
-    """A sight that measures with cameras, and errs."""
-
-    async def look(self) -> View:
-        """All that is believed."""
-        return replace(await FakeSight.look(self), remembered=True)
 
 
 @dataclass(slots=True)

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from unittest import mock
 
-from cells_at_work import PERSON, STORED, Cell, gtin, name, note, pile
+from cells_at_work import PERSON, STORED, Cell, Remembering, gtin, name, note, pile
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -12,20 +12,11 @@ from depal.cell.workplace import Held, Workplace
 from depal.domain import Approach, Grasp
 from depal.geometry import Pose
 from depal.ports import View
-from depal.ports.fakes import FakeSight
 
 ABOVE = Pose((0.0, 0.0, 0.3))
 
 OTHER = (0.16, 0.39, 0.32)
 """What the first box really is [m]."""
-
-
-class Remembering(FakeSight):
-    """A sight that measures with cameras, and errs."""
-
-    async def look(self) -> View:
-        """All that is believed."""
-        return replace(await FakeSight.look(self), remembered=True)
 
 
 def seen_wrongly() -> Cell:

@@ -35,14 +35,14 @@ class Answers:
         Args:
             work: whose runtime is watched.
             promises: broken for boxes that go another way.
-            answered: called when a person has taken a box over.
+            answered: called when a person has seen to something.
         """
         self._work = work
         self._promises = promises
         self._answered = answered
         self._help: Counter[str] = Counter()
         self._waiting = False
-        self._handing: set[asyncio.Task[None]] = set()
+        self._asked: set[asyncio.Task[None]] = set()
         self._trees: dict[int, int] = {}
         self._why: dict[int, str] = {}
 
@@ -59,7 +59,7 @@ class Answers:
     @property
     def pending(self) -> bool:
         """Whether a person is being waited for."""
-        return bool(self._handing)
+        return bool(self._asked)
 
     def look(self) -> None:
         """A box whose action gave up: set aside from the hand, or left on the pallet."""
@@ -100,8 +100,8 @@ class Answers:
         self._waiting = True
         why = self._why.pop(number, fault)
         task = asyncio.get_running_loop().create_task(self._have_seen_to(number, about, why))
-        self._handing.add(task)
-        task.add_done_callback(self._handed_over)
+        self._asked.add(task)
+        task.add_done_callback(self._seen_to)
 
     async def _have_seen_to(self, number: int, about: str, why: str) -> None:
         question = Question(
@@ -143,6 +143,6 @@ class Answers:
             work.left_behind[box] = fault
             work.gone(box).set()
 
-    def _handed_over(self, task: asyncio.Task[None]) -> None:
-        self._handing.discard(task)
+    def _seen_to(self, task: asyncio.Task[None]) -> None:
+        self._asked.discard(task)
         self._answered()

@@ -1,6 +1,6 @@
 """One box was taken for another product: so may be others that look like it.
 
-Of a product without a picture the size is a guess: lines that are printed on it pass for its edges,
+Of a product without a picture the size is a guess: lines printed on it may pass for its edges,
 and the note has a product that is so large. All its cases look alike, so all are guessed alike.
 """
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from depal.cell.planning.loads import WARY
 from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
@@ -73,7 +74,7 @@ class Feeling:
             return None
         size = plan.box.shape.size
         holding = Holding.of(plan.grasp, plan.mass, self._work.layout.tool, size=size)
-        return planner.timing.along([Part(part.kind, path, part.touching)], holding)
+        return planner.timing.along([Part(part.kind, path, part.touching)], holding, pace=WARY)
 
     def _as_far(self, part: Part) -> Array | None:
         """Straight from where the arm stands, as a straight part goes from where it begins."""
