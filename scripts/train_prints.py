@@ -7,7 +7,7 @@ siblings that differ in words, amount or colour, as if these were the products t
 """
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,15 +17,18 @@ from depal.cell.files import shipped_cell
 from depal.domain import Product
 from depal.geometry import Pose
 from depal.logistics import shipped_deliveries
-from depal.perception.faces import Facing
+from depal.perception.detecting import Expected
+from depal.perception.faces import Face, Facing
+from depal.perception.locating import located
 from depal.perception.recognition.identity import evidence, laid_over_face
-from depal.perception.recognition.patches import Patch
 from depal.perception.recognition.prints import Gallery, print_of
 from depal.perception.recognition.rectifying import rectified
 from depal.perception.recognition.trust import FARTHEST, Trust
+from depal.ports import Frame
 from depal.simulation.imaging.photographs import Studio, photographed
 from depal.simulation.scenes import Kind, Severity, random_delivery, scene
 from depal.simulation.scenes.foreign import foreign_number
+from depal.studies.perception.scenes import calibrated
 from depal.studies.training.network import Schooling, trained
 
 Floats = npt.NDArray[np.float64]
@@ -50,7 +53,7 @@ PARTS = 4
 """What it is worth is measured on one of so many parts, trained on the others."""
 
 NETWORKS = 6
-HOW = Schooling(hidden=24, steps=2000, batch=1024, rate=5e-3, decay=5e-5)
+HOW = Schooling(hidden=24, steps=2000, batch=1024, rate=5e-3, decay=5e-4)
 
 
 def main() -> None:
@@ -99,6 +102,7 @@ def samples(seed: int, severity: Severity) -> Iterator[tuple[Floats, bool]]:
     delivery = random_delivery(seed) if seed % 3 else shipped[seed // 3 % len(shipped)]
     made = scene(delivery, shipped_cell("default"), seed, severity, list(Kind)[seed % 4 % 3])
     there = {box.gtin for box in made.truth.boxes}
+    frames = calibrated(made)
     galleries = {
         gtin: [
             one_product(product, looks, random) for looks in (product, *siblings(product, random))
@@ -111,18 +115,19 @@ def samples(seed: int, severity: Severity) -> Iterator[tuple[Floats, bool]]:
             if not face.counts:
                 continue
             pose, size = disturbed(face.cell_from_face, face.size, random)
-            patch = rectified(made.frames, facing, pose, size)
-            if patch is None:
-                continue
+            found = Face(facing, pose, size, 1.0)
             for k, gallery in enumerate(galleries[box.gtin]):
-                numbers = numbers_of(patch, gallery)
+                numbers = numbers_of(found, frames, gallery)
                 if numbers is not None:
                     yield numbers, k == 0
 
 
-def numbers_of(patch: Patch, gallery: Gallery) -> Floats | None:
-    """The evidence on a face for the one product of a gallery."""
-    fits = laid_over_face(patch, gallery)
+def numbers_of(found: Face, frames: Sequence[Frame], gallery: Gallery) -> Floats | None:
+    """The evidence on a face for the one product of a gallery, where that one's print has it."""
+    expected = Expected(tuple({printed.product.size for printed in gallery.prints}))
+    face = located(found, frames, expected.faces(found.facing), gallery)
+    patch = rectified(frames, face.facing, face.cell_from_face, face.size)
+    fits = [] if patch is None else laid_over_face(patch, gallery)
     if not fits:
         return None
     return evidence(max(fits, key=lambda fit: fit.agreed.cosine - fit.agreed.worst))

@@ -2,17 +2,22 @@
 
 import math
 from dataclasses import replace
+from unittest import mock
 
 import numpy as np
 import pytest
 
 from depal.cell.files import shipped_cell
+from depal.geometry import Pose
 from depal.logistics import read_delivery
 from depal.perception.calibration import calibrate
-from depal.perception.faces import Facing
+from depal.perception.faces import Face, Facing, Name
+from depal.perception.locating import located
 from depal.perception.observing import Known, Observation, Observer, rectangle_of
 from depal.perception.rasters import Region
-from depal.perception.recognition import gallery_of
+from depal.perception.recognition import gallery_of, identify, identity
+from depal.perception.recognition.rectifying import rectified
+from depal.perception.recognition.trust import shipped_trust
 from depal.ports import Frame
 from depal.simulation.imaging.photographs import book_of
 from depal.simulation.scenes import Kind, Scene, Severity, scene
@@ -96,3 +101,29 @@ def test_what_stood_where_something_has_gone_is_looked_for_anew(
     again = observer.look(covered, known, observation)
     assert gone not in again.faces[0]
     assert all(face.facing is Facing.FRONT for face in again.faces[0])
+
+
+@pytest.mark.slow
+def test_a_name_is_read_where_the_face_is_and_not_where_it_was_found(
+    seen: tuple[Scene, Observer, Known, Observation, list[Frame]],
+) -> None:
+    """A yaw that was wrong by two degrees is set right before what is not sure is read."""
+    made, _, known, _, frames = seen
+    assert known.gallery is not None
+    sizes, turned = known.expected.faces(Facing.FRONT), math.radians(2.0)
+    c, s = math.cos(turned), math.sin(turned)
+    off = Pose((0.002, -0.002, 0.004), ((c, 0.0, s), (0.0, 1.0, 0.0), (-s, 0.0, c)))
+    doubting = replace(shipped_trust(), limit=100.0)
+    told, read = list[Name | None](), list[Name | None]()
+    with mock.patch.object(identity, "shipped_trust", lambda: doubting):
+        for box in made.truth.boxes:
+            if not box.front.counts:
+                continue
+            found = Face(Facing.FRONT, box.front.cell_from_face @ off, box.front.size, 1.0)
+            face = located(found, frames, sizes, known.gallery)
+            patch = rectified(frames, Facing.FRONT, face.cell_from_face, face.size)
+            there = None if patch is None else identify(patch, known.gallery)
+            told.append(face.name)
+            read.append(there.name if there else None)
+    assert len(told) > 5
+    assert told == read

@@ -88,6 +88,8 @@ def located(
                 face = face if again is None else replace(face, name=again.name)
     belief += (sides if patch is first else Sides.of(patch)).told(belief)
     face, belief = _moved(face, belief)
+    if gallery is not None:
+        face = _read_again(face, frames, gallery)
     sway = np.zeros(7)
     if depths is not None:
         sway = belief.covariance @ (depths[0].information[:, DEPTH] * depths[1])
@@ -140,6 +142,19 @@ def _by_print(
         starts = [(start.du, start.dv, start.turn + turn) for turn in turns]
         belief += by_print(patch.features, print_, patch.eye, belief, starts)
     return face, belief, patch
+
+
+def _read_again(face: Face, frames: Sequence[Frame], gallery: Gallery) -> Face:
+    """The face, its print read where the face is now known to be, if it was not sure of its name.
+
+    Letters are compared stroke by stroke: of a face that is laid flat with a yaw that is wrong by a
+    degree the strokes at one end lie beside the print's, and they pass for other letters.
+    """
+    if face.name is None or face.name.certain or face.name.score < RESEMBLES:
+        return face
+    patch = rectified(frames, face.facing, face.cell_from_face, face.size)
+    again = None if patch is None else identify(patch, gallery)
+    return face if again is None else replace(face, name=again.name)
 
 
 def _print_of(name: Name, gallery: Gallery) -> Print:

@@ -13,7 +13,15 @@ from depal.geometry import Pose, Vector3
 from depal.geometry.abreast import abreast
 from depal.perception.assembling import boxes_of
 from depal.perception.changing import changed
-from depal.perception.detecting import Expected, Finder, Found, Printed, Refuted
+from depal.perception.detecting import (
+    Expected,
+    Finder,
+    Found,
+    Printed,
+    Refuted,
+    Weighed,
+    implied_by,
+)
 from depal.perception.faces import Face, Look, Raster, Rectangle
 from depal.perception.locating import located
 from depal.perception.rasters import Region, rasters_of
@@ -97,13 +105,28 @@ class Observer:
         """
         rasters = rasters_of(frames, self.region)
 
-        def faces_on(k: int) -> tuple[Face, ...]:
+        def weighed_on(k: int) -> tuple[tuple[Face, ...], Weighed | None, tuple[Face, ...]]:
             kept: tuple[Face, ...] = ()
             part: Raster | None = rasters[k]
             if before is not None:
                 kept, part = _unchanged(before.rasters[k], before.faces[k], rasters[k])
-            new = () if part is None else self._faces(part, kept, frames, known)
-            return (*kept, *new)
+            if part is None:
+                return kept, None, ()
+            weighed = self._weighed(part, kept, known)
+            return kept, weighed, _laid_on(part, self.finder.chosen(weighed))
+
+        by_itself = abreast(weighed_on, range(len(rasters)))
+
+        def faces_on(k: int) -> tuple[Face, ...]:
+            (kept, weighed, _), (others, _, more) = by_itself[k], by_itself[1 - k]
+            if weighed is None:
+                return kept
+            sights = (weighed.raster, known.expected, self.region.cell_from_region.inverse)
+            chosen = self.finder.chosen(weighed, implied_by((*others, *more), *sights))
+            sizes = known.expected.faces(weighed.raster.facing)
+            found = _laid_on(weighed.raster, chosen)
+            placed = [located(each, frames, sizes, known.gallery) for each in found]
+            return (*kept, *distinct(placed, kept))
 
         fronts, tops = abreast(faces_on, range(len(rasters)))
         faces = (fronts, tops)
@@ -112,16 +135,11 @@ class Observer:
         look = Look(boxes, *relations_of(boxes), faces=settled)
         return Observation(look, rasters, faces)
 
-    def _faces(
-        self, raster: Raster, kept: Sequence[Face], frames: Sequence[Frame], known: Known
-    ) -> tuple[Face, ...]:
+    def _weighed(self, raster: Raster, kept: Sequence[Face], known: Known) -> Weighed:
         prints = None if known.gallery is None else printed_on(raster, known.gallery)
         fixed = [rectangle_of(raster, face) for face in kept]
         refuted = known.refuted.on(raster)
-        found = self.finder.faces(raster, known.expected, prints, fixed, refuted)
-        sizes = known.expected.faces(raster.facing)
-        placed = [located(_laid(raster, each), frames, sizes, known.gallery) for each in found]
-        return distinct(placed, kept)
+        return self.finder.weighed(raster, known.expected, prints, fixed, refuted)
 
 
 def distinct(faces: Sequence[Face], kept: Sequence[Face] = ()) -> tuple[Face, ...]:
@@ -159,11 +177,19 @@ def rectangle_of(raster: Raster, face: Face) -> Rectangle:
     return Rectangle(u, v, *face.size, turn, depth)
 
 
-def _laid(raster: Raster, found: Found) -> Face:
-    """A found face in the cell."""
-    pose = raster.pose_of(found.rectangle)
-    size = (found.rectangle.width, found.rectangle.height)
-    return Face(raster.facing, pose, size, found.probability, found.known, found.name)
+def _laid_on(raster: Raster, found: Sequence[Found]) -> tuple[Face, ...]:
+    """Found faces in the cell."""
+    return tuple(
+        Face(
+            raster.facing,
+            raster.pose_of(each.rectangle),
+            (each.rectangle.width, each.rectangle.height),
+            each.probability,
+            each.known,
+            each.name,
+        )
+        for each in found
+    )
 
 
 def _unchanged(

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.detecting.expected import Expected
+from depal.perception.detecting.implying import Implied, spoken_for
 from depal.perception.detecting.kernels import agreeing
 from depal.perception.detecting.refuting import RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
@@ -70,6 +71,27 @@ class Found:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class Weighed:
+    """The rectangles of a raster that may be faces.
+
+    Attributes:
+        raster: what is seen.
+        candidates: n rectangles.
+        agreed: (n, prints) how well each print's place agrees, in [0, 1].
+        odds: (n,) the logarithm of the odds that each is one face.
+        prints: where prints were seen.
+        fixed: faces that are known already; none that is chosen overlaps them.
+    """
+
+    raster: Raster
+    candidates: Candidates
+    agreed: Floats
+    odds: Floats
+    prints: tuple[Printed, ...] = ()
+    fixed: tuple[Rectangle, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Finder:
     """Finds faces.
 
@@ -96,7 +118,18 @@ class Finder:
         fixed: Sequence[Rectangle] = (),
         refuted: RefutedFaces | None = None,
     ) -> tuple[Found, ...]:
-        """The faces in a raster, none overlapping another.
+        """The faces in a raster by itself, none overlapping another; as `weighed` and `chosen`."""
+        return self.chosen(self.weighed(raster, expected, prints, fixed, refuted))
+
+    def weighed(
+        self,
+        raster: Raster,
+        expected: Expected,
+        prints: Sequence[Printed] | None,
+        fixed: Sequence[Rectangle] = (),
+        refuted: RefutedFaces | None = None,
+    ) -> Weighed:
+        """All rectangles of a raster that may be faces, and how likely each is one.
 
         Args:
             raster: what is seen.
@@ -108,8 +141,6 @@ class Finder:
         seams = seams_along(raster, directions_of(raster, DIRECTIONS[raster.facing]))
         sizes = expected.faces(raster.facing)
         candidates, agreed = candidates_of(seams, sizes, prints)
-        if not len(candidates):
-            return ()
         shares = agreed.max(axis=1) if agreed.shape[1] else np.full(len(candidates), -1.0)
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
@@ -117,13 +148,27 @@ class Finder:
         odds -= doubts(candidates.measured, candidates.sizes, sizes, shares)
         if refuted is not None:
             odds[refuted.among(candidates)] = -np.inf
+        return Weighed(raster, candidates, agreed, odds, tuple(prints or ()), tuple(fixed))
+
+    def chosen(self, weighed: Weighed, implied: Sequence[Implied] = ()) -> tuple[Found, ...]:
+        """Of the rectangles the likeliest that do not overlap.
+
+        Args:
+            weighed: the rectangles of a raster.
+            implied: what faces that look the other way tell of those that look this way.
+        """
+        candidates, odds = weighed.candidates, weighed.odds
+        if not len(candidates):
+            return ()
+        odds = odds + spoken_for(candidates, implied)
         likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
-        values = np.concatenate((odds[kept] + self.eager, np.full(len(fixed), FIXED)))
-        chosen = packed((*candidates[kept].rectangles, *fixed), values, raster)
+        values = np.concatenate((odds[kept] + self.eager, np.full(len(weighed.fixed), FIXED)))
+        rectangles = (*candidates[kept].rectangles, *weighed.fixed)
+        rows = [kept[k] for k in packed(rectangles, values, weighed.raster) if k < len(kept)]
         return tuple(
-            self._found(candidates, int(row), float(odds[row]), agreed[row], prints or ())
-            for row in (kept[k] for k in chosen if k < len(kept))
+            self._found(candidates, int(row), float(odds[row]), weighed.agreed[row], weighed.prints)
+            for row in rows
         )
 
     def _found(
