@@ -115,7 +115,7 @@ def test_a_name_is_read_where_the_face_is_and_not_where_it_was_found(
     off = Pose((0.002, -0.002, 0.004), ((c, 0.0, s), (0.0, 1.0, 0.0), (-s, 0.0, c)))
     doubting = replace(shipped_trust(), limit=100.0)
     told, read = list[Name | None](), list[Name | None]()
-    with mock.patch.object(identity, "shipped_trust", lambda: doubting):
+    with mock.patch.object(identity, "shipped_trust", return_value=doubting):
         for box in made.truth.boxes:
             if not box.front.counts:
                 continue
