@@ -13,6 +13,11 @@ UPRIGHT = 0.02
 """And one of which nobody has seen an edge so far up or down [m]."""
 
 
+BESIDE = 0.03
+"""A held box keeps so far from boxes that no print has named: two of them may be seen as one whose
+edges lie elsewhere [m]."""
+
+
 def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
     """How much farther out a box may be than it seems: no less than looks err [m].
 
@@ -46,3 +51,17 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
                 longest = np.maximum(longest, way)
     width, depth = (2 * (longest + SIDEWAYS) - (a, b)).tolist()
     return OrientedBox(shape.pose, (width, depth, c))
+
+
+def room_beside(box: Perceived, delivery: Delivery) -> OrientedBox:
+    """The room around a standing box that a held one keeps out of: what it may take, and more.
+
+    Args:
+        box: upright.
+        delivery: what it can be.
+    """
+    if isinstance(box, Recognition):
+        return box.shape
+    shape = as_broad_as_it_may_be(box, delivery)
+    a, b, c = shape.size
+    return OrientedBox(shape.pose, (a + 2 * BESIDE, b + 2 * BESIDE, c))

@@ -41,6 +41,9 @@ RESEMBLES = 0.6
 STILL = (0.0015, 0.0015, np.inf, np.inf, math.radians(0.3), np.inf, np.inf)
 """A face whose edges move it by less is not laid flat anew [m, rad]."""
 
+READ = (0.003, 0.003, 0.006, math.radians(0.1), math.radians(0.5), np.inf, np.inf)
+"""A face that its print and edges move by less is not read again [m, rad]."""
+
 RIGHT = 0.93
 """A print that agrees better is of the right product, or of one that is as large."""
 
@@ -87,8 +90,9 @@ def located(
                 again = identify(patch, gallery)
                 face = face if again is None else replace(face, name=again.name)
     belief += (sides if patch is first else Sides.of(patch)).told(belief)
+    turned = bool((np.abs(belief.mean) > READ).any())
     face, belief = _moved(face, belief)
-    if gallery is not None:
+    if gallery is not None and turned:
         face = _read_again(face, frames, gallery)
     sway = np.zeros(7)
     if depths is not None:
@@ -153,7 +157,7 @@ def _read_again(face: Face, frames: Sequence[Frame], gallery: Gallery) -> Face:
     if face.name is None or face.name.certain or face.name.score < RESEMBLES:
         return face
     patch = rectified(frames, face.facing, face.cell_from_face, face.size)
-    again = None if patch is None else identify(patch, gallery)
+    again = None if patch is None else identify(patch, gallery, sized=True)
     return face if again is None else replace(face, name=again.name)
 
 

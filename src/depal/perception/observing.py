@@ -41,6 +41,10 @@ TWICE = 0.025
 """Faces that are no farther from each other are one that was found twice [m]."""
 
 
+ByItself = tuple[tuple[Face, ...], Weighed | None, tuple[Face, ...]]
+"""Of one raster the faces that are kept, what may be faces, and of that what by itself would be."""
+
+
 @dataclass(frozen=True, slots=True)
 class Known:
     """What is known before the look.
@@ -105,7 +109,7 @@ class Observer:
         """
         rasters = rasters_of(frames, self.region)
 
-        def weighed_on(k: int) -> tuple[tuple[Face, ...], Weighed | None, tuple[Face, ...]]:
+        def weighed_on(k: int) -> ByItself:
             kept: tuple[Face, ...] = ()
             part: Raster | None = rasters[k]
             if before is not None:
@@ -116,24 +120,30 @@ class Observer:
             return kept, weighed, _laid_on(part, self.finder.chosen(weighed))
 
         by_itself = abreast(weighed_on, range(len(rasters)))
+        found = [face for k in range(len(rasters)) for face in self._chosen(by_itself, k, known)]
 
-        def faces_on(k: int) -> tuple[Face, ...]:
-            (kept, weighed, _), (others, _, more) = by_itself[k], by_itself[1 - k]
-            if weighed is None:
-                return kept
-            sights = (weighed.raster, known.expected, self.region.cell_from_region.inverse)
-            chosen = self.finder.chosen(weighed, implied_by((*others, *more), *sights))
-            sizes = known.expected.faces(weighed.raster.facing)
-            found = _laid_on(weighed.raster, chosen)
-            placed = [located(each, frames, sizes, known.gallery) for each in found]
-            return (*kept, *distinct(placed, kept))
+        def located_one(face: Face) -> Face:
+            return located(face, frames, known.expected.faces(face.facing), known.gallery)
 
-        fronts, tops = abreast(faces_on, range(len(rasters)))
+        placed = abreast(located_one, found)
+        fronts, tops = (
+            (*kept, *distinct([face for face in placed if face.facing is raster.facing], kept))
+            for raster, (kept, _, _) in zip(rasters, by_itself, strict=True)
+        )
         faces = (fronts, tops)
         boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
         settled = tuple(face for box in boxes for face in box.faces)
         look = Look(boxes, *relations_of(boxes), faces=settled)
         return Observation(look, rasters, faces)
+
+    def _chosen(self, by_itself: Sequence[ByItself], k: int, known: Known) -> tuple[Face, ...]:
+        """The new faces of a raster, by what each raster showed by itself."""
+        (_, weighed, _), (kept, _, found) = by_itself[k], by_itself[1 - k]
+        if weighed is None:
+            return ()
+        back = self.region.cell_from_region.inverse
+        implied = implied_by((*kept, *found), weighed.raster, known.expected, back)
+        return _laid_on(weighed.raster, self.finder.chosen(weighed, implied))
 
     def _weighed(self, raster: Raster, kept: Sequence[Face], known: Known) -> Weighed:
         prints = None if known.gallery is None else printed_on(raster, known.gallery)

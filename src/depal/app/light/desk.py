@@ -24,6 +24,7 @@ from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Grasp, Perceived, PlaceId
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.logistics.placing import Held, find_spots
+from depal.motion.collision import Scene
 from depal.motion.collision.values import Array
 from depal.motion.kinematics import Kinematics
 from depal.motion.moves import Kind, Part, Pick
@@ -177,7 +178,8 @@ class LightCarrying(Carrying):
 class LightPresenting(Presenting):
     """One side is shown."""
 
-    def _sides(self, load: Load) -> ShowPlan | str:
+    def _sides(self, load: Load, bulky: Load, scene: Scene) -> ShowPlan | str:
+        del bulky, scene
         self._planner.planned += 1
         mount = self._work.layout.reader
         x, y, _ = mount.cell_from_reader.apply((0.0, 0.0, mount.distance))

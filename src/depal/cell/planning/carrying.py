@@ -15,12 +15,13 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.surroundings import target_of
 from depal.cell.planning.timing import rebased, stands_at, straight_to_end
 from depal.cell.planning.trolleys import Trolleys
+from depal.cell.planning.wary import scenes_around
 from depal.cell.rules import LEAVING, rules_on
 from depal.cell.workplace import Workplace
 from depal.domain import BoxId, PlaceId, StorageKind
 from depal.logistics.placing import MARGINS, Spot, find_spots
 from depal.motion.collision import Scene
-from depal.motion.moves import Berth, Kind, NoMotion, Part
+from depal.motion.moves import Berth, Kind, NoMotion, Part, Put
 from depal.ports import Trajectory
 
 ASIDE = PlaceId("aside")
@@ -140,12 +141,10 @@ class Carrying:
 
     def _into(self, load: Load, place: PlaceId) -> CarryPlan | str:
         """Into one place, at the first of its spots that the arm reaches."""
-        planner = self._planner
-        scene = self._scene(load)
-        reason = "no room"
+        planner, reason = self._planner, "no room"
         for spot in self._spots(load, place, SPOTS):
             berth = self._berth(load, place, spot)
-            put = planner.put(load, berth, scene)
+            put, scene = self._put(load, berth)
             if isinstance(put, NoMotion):
                 reason = str(put)
                 continue
@@ -157,6 +156,15 @@ class Carrying:
                 continue
             return CarryPlan(load, place, spot, berth.target, motion, descent, put.retreat.path)
         return load.rules.after(reason)
+
+    def _put(self, load: Load, berth: Berth) -> tuple[Put | NoMotion, Scene]:
+        """The way there and what it is clear of: all that others may be, where there is such."""
+        *wary, near = scenes_around(load, self._work, self._promises)
+        for scene in wary:
+            put = self._planner.put(load, berth, scene)
+            if not isinstance(put, NoMotion):
+                return put, scene
+        return self._planner.put(load, berth, near), near
 
     def _spots(self, load: Load, place: PlaceId, limit: int) -> tuple[Spot, ...]:
         """Spots in a place that the arm reaches with the box as it is held, best first."""

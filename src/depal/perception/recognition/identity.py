@@ -126,19 +126,22 @@ class Fit:
         return abs(wide - size[0]) <= SIZES and abs(high - size[1]) <= SIZES
 
 
-def identify(patch: Patch, gallery: Gallery, limits: Limits | None = None) -> Identity | None:
+def identify(
+    patch: Patch, gallery: Gallery, limits: Limits | None = None, *, sized: bool = False
+) -> Identity | None:
     """Names a face.
 
     Args:
         patch: the face, laid flat.
         gallery: what may come.
         limits: when a name may be believed.
+        sized: whether the face's size is known: then no print of another size is tried.
 
     Returns:
         The best name, certain or not; None where no print of this size resembles the face.
     """
     limits = limits or Limits()
-    fits = laid_over_face(patch, gallery)
+    fits = laid_over_face(patch, gallery, sized=sized)
     if not fits:
         return None
     best = max(fits, key=lambda fit: fit.agreed.cosine - fit.agreed.worst)
@@ -168,12 +171,20 @@ def fitting(
     return found
 
 
-def laid_over_face(patch: Patch, gallery: Gallery) -> list[Fit]:
-    """The prints that resemble a face most, laid over it; of other sizes where none does."""
+def laid_over_face(patch: Patch, gallery: Gallery, *, sized: bool = False) -> list[Fit]:
+    """The prints that resemble a face most, laid over it.
+
+    Args:
+        patch: the face, laid flat.
+        gallery: what may come.
+        sized: whether its size is known; else prints of other sizes are tried where none of its
+            size resembles it.
+    """
     near = fitting(patch.size, patch.facing, gallery)
     seen = patch.features
     fits = _all_laid(seen, near)
-    if any(fit.agreed.cosine >= RESEMBLES and fit.agreed.worst <= DIFFERS for fit in fits):
+    alike = any(fit.agreed.cosine >= RESEMBLES and fit.agreed.worst <= DIFFERS for fit in fits)
+    if alike or sized:
         return fits
     known = {(printed.product.gtin, printed.side, quarter) for printed, quarter in near}
     far = [
