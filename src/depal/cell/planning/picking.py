@@ -23,6 +23,7 @@ from depal.geometry import OrientedBox, Vector3
 from depal.motion.collision import Scene
 from depal.motion.grasping import EXACT, Holding, grasps
 from depal.motion.moves import OPEN, Doubts, NoMotion, Part, Pick
+from depal.motion.planning.straight import straight
 from depal.ports import Trajectory
 
 ROOM = 0.03
@@ -33,6 +34,9 @@ BESIDE = 0.5
 
 FEELING = 0.25
 """So fast the flange comes down where something may be higher than it looks [m/s]."""
+
+SHORT = 0.018
+"""So far before its plane of touch the tool stops at a front that no print has named [m]."""
 
 MOVED = 0.008
 """A plan is good for a box that is seen this far from where it was planned for [m]."""
@@ -168,12 +172,31 @@ class Picking:
         holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
         feeling = self._feels(box, pick.grasp)
         *free, down = pick.approach
-        ways = (*free, replace(down, most=FEELING)) if feeling else pick.approach
+        before = self._before(down) if self._may_be_nearer(box, pick.grasp) else None
+        down = down if before is None else before
+        ways = (*free, replace(down, most=FEELING) if feeling else down)
         approach = planner.timing.along(ways, checker=empty)
         lift = planner.timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
             return "the suction would not hold it"
-        return PickPlan(box, mass, pick, approach, lift, beyond, rules, feeling)
+        short = 0.0 if before is None else SHORT
+        return PickPlan(box, mass, pick, approach, lift, beyond, rules, feeling, short)
+
+    def _may_be_nearer(self, box: Perceived, grasp: Grasp) -> bool:
+        """Whether a front may stand before where it looks; nothing at the flange feels that."""
+        horizontal = grasp.approach is Approach.HORIZONTAL
+        return horizontal and self._work.pile.remembered and isinstance(box, Detection)
+
+    def _before(self, down: Part) -> Part | None:
+        """The last part of an approach, less the end that is felt for; None where it is short."""
+        kinematics = self._planner.mover.body.kinematics
+        begin, end = (kinematics.flange(row).translation for row in (down.path[0], down.path[-1]))
+        length = math.dist(begin, end)
+        if length <= SHORT:
+            return None
+        x, y, z = ((1.0 - SHORT / length) * np.subtract(end, begin)).tolist()
+        path = straight(kinematics, down.path[0], (x, y, z))
+        return None if path is None else replace(down, path=path)
 
     def _feels(self, box: Perceived, grasp: Grasp) -> bool:
         """Whether something below the tool may be higher than it looks: no print has named it."""

@@ -25,6 +25,7 @@ class PickPlan:
         beyond: how much longer the box may be along its own axes, at either end [m].
         rules: that it keeps to.
         feeling: whether the approach ends where the cups touch something, wherever that is.
+        short: so far before the plane of touch it ends: the cups feel for the face from there [m].
     """
 
     box: Perceived
@@ -35,6 +36,7 @@ class PickPlan:
     beyond: Vector3 = EXACT
     rules: Rules = NO_RULES
     feeling: bool = False
+    short: float = 0.0
 
     @property
     def grasp(self) -> Grasp:

@@ -3,6 +3,8 @@
 A camera measures the distance of a face worse than a bellows reaches. Where no cup seals, the
 plane of touch is moved along the approach, first back and then forth, until one does. Forth it goes
 no farther than until the cups touch something: where they do and none seals, the face is another.
+What pushes the tool back from the front is not felt: before a front that may stand nearer than it
+looks the tool stops short, and goes forth alone.
 """
 
 from depal.cell.guards import PRESSING, Guards
@@ -13,6 +15,9 @@ from depal.cell.workplace import Workplace
 STEPS = (-0.009, 0.009, 0.018)
 """Where the plane of touch is tried after it was tried where the face seems to be [m]: together
 with the stroke of the bellows, behind it and before it, these leave no gap."""
+
+FORTH = (-0.009, 0.0, 0.009, 0.018)
+"""The same from short of the face [m]."""
 
 CLOSER = 0.005
 """From where the first cup touches all of them are pressed on by so much [m]."""
@@ -26,10 +31,11 @@ async def sucked(work: Workplace, desk: Desk, plan: PickPlan, guards: Guards) ->
     gripper, arm = work.ports.gripper, work.ports.arm
     if await gripper.suck(plan.grasp.cups):
         return True
-    done = 0.0
-    for step in STEPS:
-        forth = step > done
-        if seals(work) or (forth and arm.load() < -PRESSING):
+    done = -plan.short
+    for step in FORTH if plan.short else STEPS:
+        forth, near = step > done, plan.short and done < 0.0
+        # Short of the face the first cups may seal before the others.
+        if (seals(work) and not near) or (forth and arm.load() < -PRESSING):
             return False
         motion = desk.feeling.nearer(plan, step - done)
         if motion is None:
