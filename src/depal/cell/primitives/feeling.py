@@ -31,12 +31,13 @@ async def sucked(work: Workplace, desk: Desk, plan: PickPlan, guards: Guards) ->
     gripper, arm = work.ports.gripper, work.ports.arm
     if await gripper.suck(plan.grasp.cups):
         return True
-    done = -plan.short
+    done, spare = -plan.short, bool(plan.short)
     for step in FORTH if plan.short else STEPS:
-        forth, near = step > done, plan.short and done < 0.0
-        # Short of the face the first cups may seal before the others.
-        if (seals(work) and not near) or (forth and arm.load() < -PRESSING):
+        forth, sealed = step > done, seals(work)
+        # From short of a face that stands askew some cups seal first: one step more, and no other.
+        if (sealed and not spare) or (forth and arm.load() < -PRESSING):
             return False
+        spare = spare and not sealed
         motion = desk.feeling.nearer(plan, step - done)
         if motion is None:
             return False
