@@ -1,6 +1,7 @@
 """Rectangles are proposed where edges are, in whatever direction they run."""
 
 import math
+from collections.abc import Sequence
 
 import cv2
 import numpy as np
@@ -9,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from depal.geometry import Pose
-from depal.perception.detecting import Expected, Finder, Printed, RefutedFaces
+from depal.perception.detecting import Expected, Finder, Found, Printed, RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
 from depal.perception.proposals.kernels import FEATURES
@@ -143,6 +144,18 @@ def test_every_feature_has_a_name() -> None:
     assert np.isfinite(features).all()
 
 
+def faces_in(
+    raster: Raster,
+    expected: Expected,
+    prints: Sequence[Printed],
+    fixed: Sequence[Rectangle] = (),
+    refuted: RefutedFaces | None = None,
+) -> tuple[Found, ...]:
+    """What a raster shows by itself."""
+    finder = Finder()
+    return finder.chosen(finder.weighed(raster, expected, prints, fixed, refuted))
+
+
 def test_flush_faces_are_found_side_by_side_and_a_known_one_is_left_alone() -> None:
     """Four faces, no gap between them."""
     faces = [Rectangle(0.3 + 0.2 * i, 0.25 + 0.16 * j, 0.2, 0.16) for i in (0, 1) for j in (0, 1)]
@@ -150,10 +163,10 @@ def test_flush_faces_are_found_side_by_side_and_a_known_one_is_left_alone() -> N
     expected = Expected(((0.2, 0.16, 0.12),))
     name = Name("00000000000017", "top", 0.95, certain=False)
     prints = [Printed(each, name) for each in faces]
-    found = Finder().faces(raster, expected, prints)
+    found = faces_in(raster, expected, prints)
     for face in faces:
         assert max(overlap(face, each.rectangle) for each in found) > 0.85
-    rest = Finder().faces(raster, expected, prints, faces[:1])
+    rest = faces_in(raster, expected, prints, fixed=faces[:1])
     assert all(overlap(faces[0], each.rectangle) < 0.1 for each in rest)
 
 
@@ -164,10 +177,9 @@ def test_two_faces_are_found_where_a_box_of_both_was_refuted() -> None:
     raster = raster_with(pair, contrast=0.6)
     expected = Expected(((0.2, 0.16, 0.12), (0.4, 0.16, 0.12)))
     prints = [Printed(long, Name("00000000000017", "top", 0.95, certain=False))]
-    finder = Finder()
-    believed = finder.faces(raster, expected, prints)
+    believed = faces_in(raster, expected, prints)
     assert max(overlap(long, each.rectangle) for each in believed) > 0.85
-    found = finder.faces(raster, expected, prints, refuted=RefutedFaces((long,)))
+    found = faces_in(raster, expected, prints, refuted=RefutedFaces((long,)))
     assert all(overlap(long, each.rectangle) < 0.85 for each in found)
     for face in pair:
         assert max(overlap(face, each.rectangle) for each in found) > 0.85

@@ -110,17 +110,6 @@ class Finder:
         """The score of faces that look this way."""
         return self.tops if facing is Facing.TOP else self.score
 
-    def faces(
-        self,
-        raster: Raster,
-        expected: Expected,
-        prints: Sequence[Printed] | None,
-        fixed: Sequence[Rectangle] = (),
-        refuted: RefutedFaces | None = None,
-    ) -> tuple[Found, ...]:
-        """The faces in a raster by itself, none overlapping another; as `weighed` and `chosen`."""
-        return self.chosen(self.weighed(raster, expected, prints, fixed, refuted))
-
     def weighed(
         self,
         raster: Raster,
