@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.cell.laden import HIGHER, OVER, is_laden
+from depal.cell.laden import ENDS, HIGHER, OVER, is_laden, may_reach_under
 from depal.geometry import OrientedBox
 
 SIZE = (0.4, 0.2, 0.2)
@@ -33,3 +33,18 @@ def test_what_is_not_higher_than_a_box_does_not_stand_on_it(reach: float, above:
     """It is its own top, a bit off, or what it stands beside."""
     assert not is_laden(BOX, [solid(reach, above)])
     assert not is_laden(BOX, [])
+
+
+@given(st.floats(-0.3, 0.3), st.floats(HIGHER + 0.001, 0.5))
+def test_what_ends_where_something_higher_begins_may_go_on_below_it(
+    reach: float, above: float
+) -> None:
+    """Of a large box under another one a strip is seen, which looks like a small box."""
+    if abs(reach + ENDS) > 0.001:
+        assert may_reach_under(BOX, [solid(reach, above)]) == (reach > -ENDS)
+
+
+@given(st.floats(-0.2, 0.3), st.floats(-0.2, HIGHER - 0.001))
+def test_nothing_goes_on_below_what_is_not_higher(reach: float, above: float) -> None:
+    """It stands beside."""
+    assert not may_reach_under(BOX, [solid(reach, above)])

@@ -7,7 +7,7 @@ from depal.cell.accessing import ways_in_cell
 from depal.cell.apart import standing_apart
 from depal.cell.half_seen import may_reach_behind
 from depal.cell.identity import plausible
-from depal.cell.laden import is_laden
+from depal.cell.laden import is_laden, may_reach_under
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.plans import PickPlan
@@ -167,8 +167,13 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
         return LADEN
     if work.pile.remembered and is_half_seen(work, box):
         return HALF_SEEN
-    if isinstance(box, Recognition):
-        return None
+    return None if isinstance(box, Recognition) else _why_later_unnamed(work, box)
+
+
+def _why_later_unnamed(work: Workplace, box: Perceived) -> str | None:
+    """The same of a box of which no print tells how large it is."""
+    if work.pile.remembered and may_reach_under(box.shape, work.pile.obstacles):
+        return UNDER
     if box.id in work.pile.unsized:
         return GUESSED
     return FRESH if work.pile.is_fresh(box.id) else None
@@ -208,8 +213,9 @@ UNSEEN, ODD = "the last look did not show it", "no product of the note has its s
 GAVE_UP = "no free way"
 """How a motion's reason begins where the search for it has come to its limit."""
 
-LADEN, HALF_SEEN, GUESSED, FRESH, TRIED = (
+LADEN, UNDER, HALF_SEEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",
+    "it may go on below something higher that nobody knows",
     "what stands before it may hide a part of it",
     "one of its edges is a guess",
     "only the last look has shown it",
