@@ -10,6 +10,7 @@ from depal.domain import Detection
 from depal.executive import events as ev
 from depal.geometry import OrientedBox
 from depal.motion.kinematics import Kinematics
+from depal.motion.moves.margins import LIFT
 
 PRESSES = -9.0
 """What the load cell reads while cups are pressed in [kg]."""
@@ -22,6 +23,7 @@ class Higher:
         cell: at work.
         lowest: how deep the flange was beyond where the cups first touched, before they held [m].
         beyond: how much longer the held box was believed to be, upright, at the most [m].
+        lifted: how far above where its cups had sealed the box was weighed [m].
     """
 
     def __init__(self, more: float) -> None:
@@ -34,11 +36,14 @@ class Higher:
         cell.reader.script = (("product-1",),) * 8
         self._flange = Kinematics(cell.layout.robot).flange
         self._more, self.lowest, self.beyond = more, 0.0, 0.0
+        self.lifted = math.nan
 
     def _load(self) -> float:
         held = self.cell.gripper.load()
         if self.cell.work.held is not None:
             self.beyond = max(self.beyond, self.cell.work.held.beyond[2])
+        elif held:
+            self.lifted = self.lowest - self._deep()
         if held:
             return held
         deep = self._deep()
@@ -57,13 +62,14 @@ class Higher:
         return there[2] + self._more + 0.01 - here[2]
 
 
-@pytest.mark.parametrize("more", [0.0, 0.02, 0.05])
+@pytest.mark.parametrize("more", [0.0, 0.012, 0.02, 0.05])
 def test_the_tool_stops_where_its_cups_touch_and_the_box_is_taken(more: float) -> None:
     """Its bellows give by 2 cm; what is higher is carried with room for that."""
     higher = Higher(more)
     higher.cell.works().assert_whole()
     assert higher.cell.fates == {"b1": STORED}
     assert 0.0 < higher.lowest < 0.018
+    assert higher.lifted > LIFT - 0.005 - 1e-4
     if more > 0.02:
         assert higher.beyond > more - 0.01
 

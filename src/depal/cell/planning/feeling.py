@@ -22,6 +22,10 @@ FINE = 0.003
 HIGHER = 0.015
 """Where cups have sealed so far above the plane of touch, the box is higher than it looked [m]."""
 
+RISEN = 0.005
+"""Where they have sealed so far above it the box is lifted as far as was planned, from there: a
+lift that ended where it was planned to would leave the bellows pressed in [m]."""
+
 THIN = 0.002
 """A flat place is so deep [m]."""
 
@@ -61,7 +65,7 @@ class Feeling:
         if np.allclose(planner.here, part.path[0], atol=1e-4):
             return plan.lift
         path = rebased(part.path, planner.here)
-        if plan.feeling and self.early(plan) > HIGHER:
+        if plan.feeling and self.early(plan) > RISEN:
             up = self._as_far(part)
             path = path if up is None else up
         return planner.timing.slowly(Part(part.kind, path, part.touching)) or plan.lift

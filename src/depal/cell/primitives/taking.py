@@ -20,7 +20,7 @@ from depal.cell.identity import (
 )
 from depal.cell.payload import Payload
 from depal.cell.planning.desk import Desk
-from depal.cell.planning.feeling import HIGHER
+from depal.cell.planning.feeling import HIGHER, RISEN
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.falling import report_loss
 from depal.cell.primitives.feeling import CLOSER, seals, sucked
@@ -148,7 +148,7 @@ class Taking:
             beyond = (*beyond[:2], max(beyond[2], early))
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._doubt_identity(plan, mass)
-        out = self._desk.feeling.out(plan) if early > HIGHER else None
+        out = self._desk.feeling.out(plan) if early > RISEN else None
         lost = None if out is None else await ports.arm.follow(out, self._guards.holding())
         if lost is not None:
             return await report_loss(self._work, box, lost)
