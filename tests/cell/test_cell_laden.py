@@ -4,6 +4,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.laden import ENDS, HIGHER, OVER, is_laden, may_reach_under
+from depal.cell.pile import COARSE, HANGING, Deck, props
+from depal.domain import BoxId, Detection
 from depal.geometry import OrientedBox
 
 SIZE = (0.4, 0.2, 0.2)
@@ -48,3 +50,45 @@ def test_what_ends_where_something_higher_begins_may_go_on_below_it(
 def test_nothing_goes_on_below_what_is_not_higher(reach: float, above: float) -> None:
     """It stands beside."""
     assert not may_reach_under(BOX, [solid(reach, above)])
+
+
+@given(st.floats(0.0, 0.3), st.floats(0.0, 0.3), st.floats(HIGHER + 0.001, 0.5))
+def test_what_may_be_longer_than_it_looks_may_go_on_below_what_stands_farther_off(
+    gap: float, longer: float, above: float
+) -> None:
+    """The strip that is free of a covered box ends before the one on it, in its shadow."""
+    if abs(gap - longer - ENDS) > 0.001:
+        under = may_reach_under(BOX, [solid(-gap, above)], (longer, 0.0, 0.0))
+        assert under == (gap < longer + ENDS)
+    assert may_reach_under(BOX, [solid(-gap, above)], (0.0, longer, 0.0)) == (gap < ENDS)
+
+
+def standing(bottom: float, height: float, name: str = "b1") -> Detection:
+    """A box in the middle of the pallet."""
+    return Detection(
+        BoxId(name), OrientedBox.upright((1.6, 0.0, bottom + height / 2), (0.3, 0.2, height))
+    )
+
+
+@given(st.floats(0.0, 1.2), st.floats(0.08, 0.4), st.floats(0.0, 0.4))
+def test_what_hangs_in_the_air_stands_on_something_that_nobody_has_seen(
+    gap: float, height: float, lower: float
+) -> None:
+    """From its bottom down to what was seen below it; a box that is carried tells nothing."""
+    deck = Deck(0.144, 0.0)
+    below = [standing(deck.height, lower, "b2")] if lower > HANGING else []
+    floor = deck.height + (lower if below else 0.0)
+    found = props([standing(floor + gap, height), *below], deck)
+    if gap < HANGING - 0.001:
+        assert found == ()
+    elif gap > HANGING + 0.001:
+        (prop,) = found
+        corners = prop.corners
+        assert abs(corners[:, 2].min() - floor) < 1e-9
+        assert abs(corners[:, 2].max() - floor - gap) < 1e-9
+
+
+def test_of_what_reaches_into_what_carries_it_nothing_hangs() -> None:
+    """Heights are measured with an error."""
+    deck = Deck(0.144, 0.0)
+    assert props([standing(0.144, 0.3), standing(0.444 - COARSE + 0.001, 0.3, "b2")], deck) == ()

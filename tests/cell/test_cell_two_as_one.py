@@ -88,3 +88,26 @@ def test_what_hangs_on_some_of_the_cups_that_had_sealed_is_put_back(tears: int) 
     cell, told = seen_as_one(12.0, Tearing(weight=12.0, tears=tears))
     assert len(told) == tears
     assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == tears + 1
+
+
+class Stuck(FakeGripper):
+    """Whatever it holds does not come up: the hold breaks in the lift."""
+
+    def vacuum(self) -> dict[str, float]:
+        """Nothing is left, soon after the valves were opened."""
+        holds = asyncio.get_running_loop().time() < self.opened + TORN_AFTER
+        return {each: value * holds for each, value in FakeGripper.vacuum(self).items()}
+
+    opened = 0.0
+
+    async def suck(self, cups: tuple[Cup, ...]) -> bool:
+        """Makes vacuum."""
+        self.opened = asyncio.get_running_loop().time()
+        return await FakeGripper.suck(self, cups)
+
+
+def test_a_box_that_does_not_come_up_is_torn_at_twice_and_not_more() -> None:
+    """It may be the free strip of one that something stands on."""
+    cell, _ = seen_as_one(12.0, Stuck(weight=12.0))
+    assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == 2
+    assert cell.fates.get(name(1)) is not Fate.STORED

@@ -79,7 +79,9 @@ class Answers:
                 self._let_lie(number, box)
                 continue
             fault = state.facts.get(f"{box}.fault")
-            if fault:
+            if box in self._work.vanished:
+                self._pass_over(number, box)
+            elif fault:
                 self._give_up(number, schema, box, self._why.pop(number, str(fault)))
 
     def _cannot_recover(self, box: str) -> bool:
@@ -118,6 +120,15 @@ class Answers:
         else:
             self._help[about] = HELP
             self._work.runtime.withdraw(number, why)
+
+    def _pass_over(self, number: int, box: BoxId) -> None:
+        """What stands there may go by another name now; if it comes back it is chosen again."""
+        work = self._work
+        work.vanished.discard(box)
+        work.runtime.withdraw(number, self._why.pop(number, "it is not seen any more"))
+        work.runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
+        self._promises.forget_pick(box)
+        work.gone(box).set()
 
     def _let_lie(self, number: int, box: BoxId) -> None:
         self._work.runtime.withdraw(number, "it lies on the floor")

@@ -1,12 +1,12 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
 from depal.cell.apart import standing_apart
 from depal.cell.half_seen import may_reach_behind
-from depal.cell.identity import plausible
+from depal.cell.identity import beyond_seen, plausible
 from depal.cell.laden import is_laden, may_reach_under
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.facing import pallet_front
@@ -16,6 +16,7 @@ from depal.cell.seeking import searches
 from depal.cell.standing import Firmness, left_by, standing_pile
 from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Perceived, Recognition, Request
+from depal.geometry import OrientedBox
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
 from depal.selection.access import NO_WAY, AccessGraph
 from depal.selection.stability import Watch
@@ -163,16 +164,21 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
     """Why a box should wait until nothing better is free; None where it need not."""
     if work.pile.remembered and work.tries.get(box.id):
         return TRIED
-    if is_laden(box.shape, work.pile.obstacles):
+    pile = work.pile
+    strange = (*pile.obstacles, *(pile.unborne if pile.remembered else ()))
+    if is_laden(box.shape, strange):
         return LADEN
     if work.pile.remembered and is_half_seen(work, box):
         return HALF_SEEN
-    return None if isinstance(box, Recognition) else _why_later_unnamed(work, box)
+    return None if isinstance(box, Recognition) else _why_later_unnamed(work, box, strange)
 
 
-def _why_later_unnamed(work: Workplace, box: Perceived) -> str | None:
+def _why_later_unnamed(
+    work: Workplace, box: Perceived, strange: Iterable[OrientedBox]
+) -> str | None:
     """The same of a box of which no print tells how large it is."""
-    if work.pile.remembered and may_reach_under(box.shape, work.pile.obstacles):
+    beyond = beyond_seen(work.delivery, box.shape.size)
+    if work.pile.remembered and may_reach_under(box.shape, strange, beyond):
         return UNDER
     if box.id in work.pile.unsized:
         return GUESSED

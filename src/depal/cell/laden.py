@@ -5,7 +5,8 @@ from collections.abc import Iterable, Iterator
 import numpy as np
 import numpy.typing as npt
 
-from depal.geometry import OrientedBox
+from depal.geometry import OrientedBox, Vector3
+from depal.motion.grasping import EXACT
 
 Floats = npt.NDArray[np.float64]
 
@@ -29,14 +30,19 @@ def is_laden(box: OrientedBox, strange: Iterable[OrientedBox]) -> bool:
     return any(over > OVER for over in _over(box, strange))
 
 
-def may_reach_under(box: OrientedBox, strange: Iterable[OrientedBox]) -> bool:
+def may_reach_under(
+    box: OrientedBox, strange: Iterable[OrientedBox], beyond: Vector3 = EXACT
+) -> bool:
     """Whether a box may go on below something higher beside it: what is seen of it is a strip.
 
     Args:
         box: upright, in the cell frame; no print has named it.
         strange: as for `is_laden`.
+        beyond: how much longer it may be than it looks, at either end of its own axes [m].
     """
-    return any(over > -ENDS for over in _over(box, strange))
+    a, b, c = box.size
+    longest = OrientedBox(box.pose, (a + 2 * beyond[0], b + 2 * beyond[1], c))
+    return any(over > -ENDS for over in _over(longest, strange))
 
 
 def _over(box: OrientedBox, strange: Iterable[OrientedBox]) -> Iterator[float]:

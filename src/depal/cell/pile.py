@@ -26,6 +26,10 @@ COARSE = 0.025
 """The same for a box without a name in a sight that measures with cameras: of such a box often the
 top alone was seen, at a distance that is the worst of what cameras measure [m]."""
 
+HANGING = 0.08
+"""A box whose bottom is higher than this above all that was seen below it stands on a box that has
+not been found: no box is less high [m]."""
+
 OVER = 0.015
 """Boxes that overlap on the ground by more than this may carry one another [m]."""
 
@@ -180,6 +184,14 @@ class Pile:
             return tuple(known)
         return settled(known, self._deck, self.unsized, COARSE if self.remembered else LEVEL)
 
+    @property
+    def unborne(self) -> tuple[OrientedBox, ...]:
+        """What must stand below boxes that stand on nothing that was seen, in the cell frame.
+
+        Such a box is no error of its own: what carries it has not been found yet.
+        """
+        return () if self._deck is None else props(self.boxes, self._deck)
+
     def is_fresh(self, box: BoxId) -> bool:
         """Whether only the last look has shown a box, there were looks before it, and they err."""
         return self.remembered and 1 < self._looks == self._since.get(box)
@@ -251,6 +263,26 @@ def settled(
         pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
         done[box.id] = replace(box, shape=OrientedBox(pose, size))
     return tuple(done[box.id] for box in listed)
+
+
+def props(boxes: Iterable[Perceived], deck: Deck) -> tuple[OrientedBox, ...]:
+    """What must stand below boxes that hang in the air, from their bottoms down to what was seen.
+
+    Args:
+        boxes: upright, as they stand, in the cell frame.
+        deck: what the lowest stand on.
+    """
+    shapes = [box.shape for box in boxes]
+    out = []
+    for box in shapes:
+        bottom = _bottom(box)
+        tops = (_bottom(other) + other.size[2] for other in shapes if _over(box, other))
+        floor = max((top for top in tops if top < bottom + COARSE), default=deck.height)
+        if bottom - floor > HANGING:
+            x, y, _ = box.centre
+            pose = Pose((x, y, (bottom + floor) / 2), box.pose.rotation)
+            out.append(OrientedBox(pose, (*box.size[:2], bottom - floor)))
+    return tuple(out)
 
 
 def _carried(box: OrientedBox, below: list[OrientedBox], deck: Deck, level: float) -> float:

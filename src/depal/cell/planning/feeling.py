@@ -22,7 +22,7 @@ FINE = 0.003
 HIGHER = 0.015
 """Where cups have sealed so far above the plane of touch, the box is higher than it looked [m]."""
 
-RISEN = 0.005
+RISEN = 0.001
 """Where they have sealed so far above it the box is lifted as far as was planned, from there: a
 lift that ended where it was planned to would leave the bellows pressed in [m]."""
 

@@ -173,14 +173,14 @@ class Picking:
         feeling = self._feels(box, pick.grasp)
         *free, down = pick.approach
         before = self._before(down) if self._may_be_nearer(box, pick.grasp) else None
-        down = down if before is None else before
-        ways = (*free, replace(down, most=FEELING) if feeling else down)
-        approach = planner.timing.along(ways, checker=empty)
+        felt = planner.timing.along([replace(down, most=FEELING)]) if feeling else None
+        last = [] if feeling else [down if before is None else before]
+        approach = planner.timing.along([*free, *last], checker=empty)
         lift = planner.timing.slowly(pick.lift, holding)
         if approach is None or lift is None:
             return "the suction would not hold it"
         short = 0.0 if before is None else SHORT
-        return PickPlan(box, mass, pick, approach, lift, beyond, rules, feeling, short)
+        return PickPlan(box, mass, pick, approach, lift, beyond, rules, felt, short)
 
     def _may_be_nearer(self, box: Perceived, grasp: Grasp) -> bool:
         """Whether a front may stand before where it looks; nothing at the flange feels that."""

@@ -20,11 +20,12 @@ class PickPlan:
         box: as it was perceived.
         mass: as expected [kg].
         pick: the paths.
-        approach: from where the arm was expected to the plane of touch.
+        approach: from where the arm was expected to the plane of touch, or to where `down` begins.
         lift: off what it stands on.
         beyond: how much longer the box may be along its own axes, at either end [m].
         rules: that it keeps to.
-        feeling: whether the approach ends where the cups touch something, wherever that is.
+        down: the last straight part, where it ends as soon as the cups touch something: on the way
+            there bellows may brush over what the tool passes.
         short: so far before the plane of touch it ends: the cups feel for the face from there [m].
     """
 
@@ -35,13 +36,18 @@ class PickPlan:
     lift: Trajectory
     beyond: Vector3 = EXACT
     rules: Rules = NO_RULES
-    feeling: bool = False
+    down: Trajectory | None = None
     short: float = 0.0
 
     @property
     def grasp(self) -> Grasp:
         """How it is held."""
         return self.pick.grasp
+
+    @property
+    def feeling(self) -> bool:
+        """Whether the tool comes down until its cups touch something, wherever that is."""
+        return self.down is not None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

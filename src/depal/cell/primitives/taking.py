@@ -49,6 +49,10 @@ TORN = 0.9
 TWICE = 2
 """What weighs like two boxes is put back so often; then it is one of another weight."""
 
+WORSE = 2
+"""Where the hold breaks in the lift the box is stuck, or larger than it looks: that counts for so
+many tries in vain."""
+
 SAME = 1
 """The same side of a box is tried so often again before another one."""
 
@@ -102,9 +106,10 @@ class Taking:
     async def _approach(self, context: Context, plan: PickPlan) -> str | None:
         """To the plane of touch, or to where the cups touch something before; why it stopped."""
         follow, guards = self._work.ports.arm.follow, self._guards
-        if not plan.feeling:
-            return await follow(plan.approach, guards.asked_to_stop(context))
-        stopped = await follow(plan.approach, guards.touching(lambda: context.stop_reason))
+        stopped = await follow(plan.approach, guards.asked_to_stop(context))
+        if plan.down is None or stopped is not None:
+            return stopped
+        stopped = await follow(plan.down, guards.touching(lambda: context.stop_reason))
         if stopped != STANDS:
             return stopped
         feeling, box = self._desk.feeling, plan.box.id
@@ -134,12 +139,13 @@ class Taking:
         sealed = ports.gripper.vacuum()
         lift = self._desk.feeling.lift(plan)
         slipped = await ports.arm.follow(lift, self._guards.holding())
+        weight = 1 if slipped is None else WORSE
         await asyncio.sleep(SWINGING)
         mass = ports.arm.load()
         slipped = slipped or self._payload.felt(box, mass, context.limits())
         slipped = slipped or self._torn(plan, sealed) or self._wrong_weight(plan, mass)
         if slipped is not None:
-            return await self._let_go(plan, slipped)
+            return await self._let_go(plan, slipped, weight)
         beyond = EXACT
         if self._work.pile.remembered and not isinstance(plan.box, Recognition):
             unsized = box in self._work.pile.unsized
@@ -163,6 +169,8 @@ class Taking:
         work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
+            work.vanished.add(box)
+            work.tries[box] = work.tries.get(box, 0) + 1  # it ends, however often it comes back
             return f"box {box} is not seen on the pallet any more"
         return None
 
@@ -238,8 +246,14 @@ class Taking:
             work.mistrust(box.id, reasons)
             self._desk.promises.release(box.id)
 
-    async def _let_go(self, plan: PickPlan, reason: str) -> Report:
-        """Vents, draws back out of the view, and lets the box be approached anew."""
+    async def _let_go(self, plan: PickPlan, reason: str, weight: int = 1) -> Report:
+        """Vents, draws back out of the view, and lets the box be approached anew.
+
+        Args:
+            plan: of the box.
+            reason: why it is not taken.
+            weight: so many tries in vain this one counts for, of a box that no print has named.
+        """
         ports, box = self._work.ports, plan.box.id
         await ports.gripper.release()
         self._work.lets_go()
@@ -247,12 +261,13 @@ class Taking:
             for retreat in self._desk.picking.way_back(plan):
                 await ports.arm.follow(retreat)
         self._desk.promises.forget_pick(box)
-        self._work.tries[box] = tries = self._work.tries.get(box, 0) + 1
+        told = isinstance(plan.box, Recognition) or not self._work.pile.remembered
+        counted = 1 if told else weight
+        self._work.tries[box] = tries = self._work.tries.get(box, 0) + counted
         failed = self._work.doubted.get(box, frozenset())
         if tries > SAME:
             failed |= {plan.grasp.approach}
         self._work.doubted[box] = failed
-        told = isinstance(plan.box, Recognition) or not self._work.pile.remembered
         if tries >= VAIN and not told:
             self._work.deny(plan.box)  # something else stands there, or nothing
         return Report(((ARM_AT, None),), Outcome.FAILED, reason)
