@@ -79,7 +79,7 @@ class Answers:
                 self._let_lie(number, box)
                 continue
             fault = state.facts.get(f"{box}.fault")
-            if box in self._work.vanished:
+            if box in self._work.passed_over:
                 self._pass_over(number, box)
             elif fault:
                 self._give_up(number, schema, box, self._why.pop(number, str(fault)))
@@ -122,9 +122,9 @@ class Answers:
             self._work.runtime.withdraw(number, why)
 
     def _pass_over(self, number: int, box: BoxId) -> None:
-        """What stands there may go by another name now; if it comes back it is chosen again."""
+        """It is not there by this name any more, or there is no way to it now: chosen anew."""
         work = self._work
-        work.vanished.discard(box)
+        work.passed_over.discard(box)
         work.runtime.withdraw(number, self._why.pop(number, "it is not seen any more"))
         work.runtime.change([(f"{box}.fault", None), (f"{box}.attempts", 0)], "cell")
         self._promises.forget_pick(box)

@@ -1,5 +1,6 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
@@ -15,7 +16,7 @@ from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
 from depal.cell.standing import Firmness, left_by, standing_pile
 from depal.cell.workplace import Policy, Workplace
-from depal.domain import BoxId, Perceived, Recognition, Request
+from depal.domain import BoxId, Detection, Perceived, Recognition, Request
 from depal.geometry import OrientedBox
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
 from depal.selection.access import NO_WAY, AccessGraph
@@ -57,17 +58,17 @@ def choose(work: Workplace, desk: Desk) -> Choice:
     shaky: dict[BoxId, PickPlan] = {}
     before = desk.planner.planned
     waiting: set[BoxId] = set()
-    crowded: set[BoxId] = set()
+    doubtful = False
 
     def grasp_for(box: Perceived) -> PickPlan | Refused:
         stays = _stays(work, graph, box, firmness)
         if stays is not None:
             return stays
         doubts = why_later(work, box)
-        if doubts is not None and box.id not in waiting:
+        if doubts is not None and not doubtful:
             waiting.add(box.id)
             return Refused(doubts)
-        plan = shaky.get(box.id) or _picked(work, desk, box, crowded)
+        plan = shaky.get(box.id) or desk.picking.try_pick(box)
         if isinstance(plan, str):
             return Refused(plan)
         refusal = watch.refusal(box.id) if work.settings.guard else None
@@ -76,9 +77,9 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         return refusal or plan
 
     decision = select(graph, wishes, rule, grasp_for)
-    for put_off in (waiting, crowded):
-        if decision.target is None and put_off:
-            decision = select(graph, wishes, rule, grasp_for)
+    if decision.target is None and waiting:
+        doubtful = True
+        decision = select(graph, wishes, rule, grasp_for)
     if decision.target is None and watch.relent(tuple(shaky)) is not None:
         decision = select(graph, wishes, rule, grasp_for)
     chosen, plans = decision.target, desk.planner.planned - before
@@ -92,22 +93,6 @@ def _why_barred(graph: Blocking, box: Perceived) -> str | None:
     """Why no way to a box is free, by the policy that asks for ways; None where one is."""
     barred = isinstance(graph, AccessGraph) and not graph.approaches(box.id)
     return NO_WAY if barred else None
-
-
-def _picked(work: Workplace, desk: Desk, box: Perceived, crowded: set[BoxId]) -> PickPlan | str:
-    """A pick that keeps clear of all that neighbours may be; near to them at the second try.
-
-    Args:
-        work: of an exact sight boxes are as they look.
-        desk: plans.
-        box: which.
-        crowded: boxes that were tried; this one is added where it was tried in vain.
-    """
-    close = box.id in crowded or not work.pile.remembered
-    plan = desk.picking.try_pick(box, close=close)
-    if isinstance(plan, str) and not close:
-        crowded.add(box.id)
-    return plan
 
 
 def _stays(work: Workplace, graph: Blocking, box: Perceived, firmness: Firmness) -> Refused | None:
@@ -206,10 +191,12 @@ def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
         work: what is believed.
         box: that was refused.
         reason: why; what no box explains may be explained by the next look, and a way that was
-            not found may be found by another search.
+            not found may be found by another search, or beside boxes that are named by then.
     """
     vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
     unclear = vague or box.id in work.pile.hidden or STRANGE in reason or GAVE_UP in reason
+    words = set(re.findall(r"\w+", reason)) if work.pile.remembered else set()
+    unclear |= any(str(each.id) in words for each in work.pile.boxes if isinstance(each, Detection))
     return box.id not in work.left_behind and unclear
 
 

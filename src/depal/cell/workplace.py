@@ -178,7 +178,7 @@ class Workplace:
         runtime: the executive; set once it is bound.
         held: the box in the gripper.
         left_behind: boxes that stay on the pallet, and why.
-        vanished: boxes that the arm set out for and the look before showed no more.
+        passed_over: boxes that the arm set out for in vain, and that may be chosen anew.
         aside_reasons: why boxes are set aside.
         doubted: boxes that were not as they looked: they are looked at before another try.
         unplaceable: boxes in the gripper that weigh like two, or of which nobody knows where they
@@ -210,7 +210,7 @@ class Workplace:
     departures: Departures = field(default_factory=Departures)
     held: Held | None = None
     left_behind: dict[BoxId, str] = field(default_factory=dict)
-    vanished: set[BoxId] = field(default_factory=set)
+    passed_over: set[BoxId] = field(default_factory=set)
     aside_reasons: dict[BoxId, str] = field(default_factory=dict)
     doubted: dict[BoxId, frozenset[Approach]] = field(default_factory=dict)
     unplaceable: set[BoxId] = field(default_factory=set)

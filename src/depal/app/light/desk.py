@@ -108,10 +108,9 @@ class LightPicking(Picking):
         first: Grasp | None = None,
         *,
         only: bool = False,
-        close: bool = False,
     ) -> PickPlan | str:
         """A pick from where the arm will be next, or that there is none."""
-        del first, only, close
+        del first, only
         work = self._work
         self._planner.planned += 1
         if self._refuses(box.id, len(work.pile)):

@@ -41,13 +41,8 @@ class Counts(Protocol):
 class Picks(Protocol):
     """Plans how boxes are taken, and how an empty hand gets away; see `Picking`."""
 
-    def try_pick(self, box: Perceived, *, close: bool = False) -> PickPlan | str:
-        """A pick of a box from where the arm will be next, or why there is none.
-
-        Args:
-            box: which.
-            close: whether the tool may come near to boxes that may be broader than they look.
-        """
+    def try_pick(self, box: Perceived) -> PickPlan | str:
+        """A pick of a box from where the arm will be next, or why there is none."""
         ...
 
     def offered(self, box: Perceived) -> tuple[Grasp, ...]:

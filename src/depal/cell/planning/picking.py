@@ -61,15 +61,15 @@ class Picking:
         first: Grasp | None = None,
         *,
         only: bool = False,
-        close: bool = False,
     ) -> PickPlan | str:
         """A pick of a box from where the arm will be next, or why there is none.
+
+        The tool keeps clear of all that boxes without a name may be.
 
         Args:
             box: which.
             first: the way to hold it that is tried before all others.
             only: no other way is tried.
-            close: whether the tool may come near to boxes that may be broader than they look.
         """
         work = self._work
         start = np.array(self._promises.next_start or work.ports.arm.joints())
@@ -79,7 +79,7 @@ class Picking:
             ways += [grasp for grasp in self.ways(box) if grasp != first]
         rules = rules_on(work.engine, box.id, TAKING)
         scene = self._promises.scene(work.pile, zones=rules.zones)
-        wary = None if close else self._wary(box, rules.zones)
+        wary = self._wary(box, rules.zones)
         stands = self._planner.why_no_start(start, scene) if rules.zones else ""
         if stands:
             return stands
@@ -177,7 +177,7 @@ class Picking:
         last = [] if feeling else [down if before is None else before]
         approach = planner.timing.along([*free, *last], checker=empty)
         lift = planner.timing.slowly(pick.lift, holding)
-        if approach is None or lift is None:
+        if approach is None or lift is None or (feeling and felt is None):
             return "the suction would not hold it"
         short = 0.0 if before is None else SHORT
         return PickPlan(box, mass, pick, approach, lift, beyond, rules, felt, short)
@@ -233,8 +233,6 @@ class Picking:
         promises.next_start = None
         first = None if kept is None else kept.grasp
         plan = self.try_pick(seen, first)
-        if isinstance(plan, str) and self._work.pile.remembered:
-            plan = self.try_pick(seen, first, close=True)
         await planner.charge(planner.planned - before)
         if not isinstance(plan, str):
             if kept is not None and plan.grasp != kept.grasp:

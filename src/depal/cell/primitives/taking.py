@@ -87,6 +87,8 @@ class Taking:
             return Report(outcome=Outcome.FAILED, reason=unlike)
         plan = await self._desk.picking.pick(box)
         if isinstance(plan, str):
+            if self._work.pile.remembered:  # its neighbours look otherwise than when it was chosen
+                self._work.passed_over.add(box)
             return Report(outcome=Outcome.FAILED, reason=plan)
         least, _ = self._desk.picking.masses(plan.box)
         refusal = self._payload.refusal(box, least, context.limits())
@@ -169,7 +171,7 @@ class Taking:
         work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
-            work.vanished.add(box)
+            work.passed_over.add(box)
             work.tries[box] = work.tries.get(box, 0) + 1  # it ends, however often it comes back
             return f"box {box} is not seen on the pallet any more"
         return None
