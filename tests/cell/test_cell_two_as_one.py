@@ -75,6 +75,13 @@ def test_what_weighs_and_looks_like_two_is_put_back_and_its_face_is_none(weight:
     assert cell.fates[name(1)] is not Fate.STORED
 
 
+def test_what_weighs_more_than_any_box_of_its_size_and_like_two_has_a_seam() -> None:
+    """Two cartons side by side look like one of them that is turned."""
+    cell, told = seen_as_one(24.0)
+    assert len(told) == 1
+    assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == 1
+
+
 def test_what_weighs_like_one_is_one() -> None:
     """Nothing is put back, and perception is told nothing."""
     cell, told = seen_as_one(12.0)

@@ -214,6 +214,8 @@ class Taking:
                 work.pile.resize(plan.box.id, size)  # it is another product: taken anew as that
             else:
                 work.tries[plan.box.id] = VAIN  # it is two boxes, or part of something else
+                if self._weighs_like_two(plan, mass):
+                    self._tell_a_seam(plan)
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
         if work.tries.get(plan.box.id, 0) < TWICE and self._weighs_like_two(plan, mass):
             self._tell_a_seam(plan)
