@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 
 import cv2
 import numpy as np
@@ -41,8 +42,19 @@ TWICE = 0.025
 """Faces that are no farther from each other are one that was found twice [m]."""
 
 
-ByItself = tuple[tuple[Face, ...], Weighed | None, tuple[Face, ...]]
-"""Of one raster the faces that are kept, what may be faces, and of that what by itself would be."""
+@dataclass(frozen=True, slots=True, eq=False)
+class ByItself:
+    """What one raster shows, whatever the other one does.
+
+    Attributes:
+        kept: faces that look as they did before.
+        weighed: what else may be faces; None where nothing new can be.
+        found: of that what the raster by itself takes for faces.
+    """
+
+    kept: tuple[Face, ...]
+    weighed: Weighed | None = None
+    found: tuple[Face, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,20 +127,24 @@ class Observer:
             if before is not None:
                 kept, part = _unchanged(before.rasters[k], before.faces[k], rasters[k])
             if part is None:
-                return kept, None, ()
+                return ByItself(kept)
             weighed = self._weighed(part, kept, known)
-            return kept, weighed, _laid_on(part, self.finder.chosen(weighed))
+            return ByItself(kept, weighed, _laid_on(part, self.finder.chosen(weighed)))
 
         by_itself = abreast(weighed_on, range(len(rasters)))
-        found = [face for k in range(len(rasters)) for face in self._chosen(by_itself, k, known)]
+
+        def chosen_on(k: int) -> tuple[Face, ...]:
+            return self._chosen(by_itself[k], by_itself[1 - k], known)
+
+        found = chain.from_iterable(abreast(chosen_on, range(len(rasters))))
 
         def located_one(face: Face) -> Face:
             return located(face, frames, known.expected.faces(face.facing), known.gallery)
 
         placed = abreast(located_one, found)
         fronts, tops = (
-            (*kept, *distinct([face for face in placed if face.facing is raster.facing], kept))
-            for raster, (kept, _, _) in zip(rasters, by_itself, strict=True)
+            (*own.kept, *distinct([each for each in placed if each.facing is facing], own.kept))
+            for facing, own in zip((raster.facing for raster in rasters), by_itself, strict=True)
         )
         faces = (fronts, tops)
         boxes = boxes_of([*faces[0], *faces[1]], self.region, known.products)
@@ -136,13 +152,13 @@ class Observer:
         look = Look(boxes, *relations_of(boxes), faces=settled)
         return Observation(look, rasters, faces)
 
-    def _chosen(self, by_itself: Sequence[ByItself], k: int, known: Known) -> tuple[Face, ...]:
-        """The new faces of a raster, by what each raster showed by itself."""
-        (_, weighed, _), (kept, _, found) = by_itself[k], by_itself[1 - k]
+    def _chosen(self, own: ByItself, other: ByItself, known: Known) -> tuple[Face, ...]:
+        """The new faces of a raster, by what it and the other one showed by themselves."""
+        weighed, speaking = own.weighed, (*other.kept, *other.found)
         if weighed is None:
             return ()
         back = self.region.cell_from_region.inverse
-        implied = implied_by((*kept, *found), weighed.raster, known.expected, back)
+        implied = implied_by(speaking, weighed.raster, known.expected, back)
         return _laid_on(weighed.raster, self.finder.chosen(weighed, implied))
 
     def _weighed(self, raster: Raster, kept: Sequence[Face], known: Known) -> Weighed:
