@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray
+from depal.cell.sight.unexplained import ALONG
 from depal.domain import (
     EURO_PALLET,
     BoxId,
@@ -47,6 +48,17 @@ def test_a_box_lies_in_the_room_that_it_may_take_whichever_end_was_seen_right(
     true = OrientedBox(pose @ Pose((shift[0], shift[1], 0.0)), (size[0], size[1], seen[2]))
     local = np.array([room.pose.inverse.apply(tuple(corner)) for corner in true.corners.tolist()])
     assert (np.abs(local) <= np.array(room.size) / 2 + 1e-9).all()
+
+
+@given(sizes.filter(lambda size: max(size) > 0.13), st.floats(-3, 3))
+def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_count_as_its_own(
+    odd: Vector3, yaw: float
+) -> None:
+    """Two boxes, one behind the other, may be seen as one that is less deep than both together."""
+    shape = OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), odd)
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note((0.09, 0.09, 0.09)))
+    assert min(np.subtract(room.size, odd)[:2]) >= 2 * ALONG
+    assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
 
 
 @given(sizes)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from depal.cell.identity import SIZE_SPARE, plausible
+from depal.cell.sight.unexplained import ALONG
 from depal.domain import Delivery, Perceived, Recognition
 from depal.geometry import OrientedBox, Vector3
 
@@ -33,7 +34,8 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
     """The room that a box may take beside others, of the height that it is seen in.
 
     Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
-    was seen wrongly nobody knows. A name tells.
+    was seen wrongly nobody knows. What has the size of none is no one box, and reaches as far as
+    what is seen beside it counts as its own. A name tells.
 
     Args:
         box: upright.
@@ -44,7 +46,10 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
         return shape
     a, b, c = shape.size
     longest = np.array((a, b))
-    for product in plausible(delivery, shape.size):
+    products = plausible(delivery, shape.size)
+    if delivery.lines and not products:
+        longest += ALONG
+    for product in products:
         along, across, high = product.size
         for way in ((along, across), (across, along)):
             if max(abs(way[0] - a), abs(way[1] - b), abs(high - c)) <= SIZE_SPARE:
