@@ -10,7 +10,16 @@ from hypothesis import strategies as st
 
 from depal.cell.departures import Fate
 from depal.cell.feedback import Feedback
-from depal.domain import EURO_PALLET, Cup, Delivery, DeliveryLine, Detection, Gtin, Product
+from depal.domain import (
+    EURO_PALLET,
+    Cup,
+    Delivery,
+    DeliveryLine,
+    Detection,
+    Gtin,
+    Product,
+    Recognition,
+)
 from depal.geometry import OrientedBox
 from depal.ports.fakes import FakeGripper
 
@@ -46,10 +55,11 @@ class Tearing(FakeGripper):
 
 
 def seen_as_one(
-    weight: float, gripper: FakeGripper | None = None
+    weight: float, gripper: FakeGripper | None = None, *, named: bool = False
 ) -> tuple[Cell, list[OrientedBox]]:
     """Two low cartons side by side look like a high one; what perception is told."""
-    box = Detection(name(1), OrientedBox.upright((1.55, 0.0, DECK + 0.11), (0.25, 0.56, 0.22)))
+    shape = OrientedBox.upright((1.55, 0.0, DECK + 0.11), (0.25, 0.56, 0.22))
+    box = Recognition(name(1), shape, Gtin("high")) if named else Detection(name(1), shape)
     cell = Cell(1, gripper=gripper or FakeGripper(weight=weight))
     told: list[OrientedBox] = []
     cell.sight = Remembering([(box,)])
@@ -80,6 +90,13 @@ def test_what_weighs_more_than_any_box_of_its_size_and_like_two_has_a_seam() -> 
     cell, told = seen_as_one(24.0)
     assert len(told) == 1
     assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == 1
+
+
+def test_a_name_does_not_make_one_box_of_what_weighs_like_two() -> None:
+    """The print is that of one of them; the face that was believed reaches over both."""
+    cell, told = seen_as_one(24.0, named=True)
+    assert len(told) >= 1
+    assert cell.fates.get(name(1)) is not Fate.STORED
 
 
 def test_what_weighs_like_one_is_one() -> None:

@@ -191,10 +191,15 @@ class Taking:
         self._tell_a_seam(plan)
         return "some of the cups have lost their hold"
 
-    def _tell_a_seam(self, plan: PickPlan) -> None:
-        """Where some cups seal and others do not, no one face is under all of them."""
-        named = isinstance(plan.box, Recognition)
-        if self._work.pile.remembered and not named and seals(self._work):
+    def _tell_a_seam(self, plan: PickPlan, *, sure: bool = False) -> None:
+        """Where some cups seal and others do not, no one face is under all of them.
+
+        Args:
+            plan: of the box.
+            sure: whether a print does not say otherwise: it may be that of one of two boxes.
+        """
+        told = isinstance(plan.box, Recognition) and not sure
+        if self._work.pile.remembered and not told and seals(self._work):
             self._work.feedback.part(self._desk.feeling.under_cups(plan))
 
     def _wrong_weight(self, plan: PickPlan, mass: float) -> str | None:
@@ -207,15 +212,14 @@ class Taking:
         if mass < (NOTHING if least is None else LIGHT * least):
             return f"{mass:.1f} kg hang on the arm where {plan.mass:.1f} kg were expected"
         if most is not None and mass > most_of(most):
+            told = isinstance(plan.box, Recognition)
             size = size_by_weight(work.delivery, plan.box.shape.size, mass)
-            if isinstance(plan.box, Recognition):
-                pass
-            elif size is not None:
+            if size is not None and not told:
                 work.pile.resize(plan.box.id, size)  # it is another product: taken anew as that
-            else:
+            elif self._weighs_like_two(plan, mass):
+                self._tell_a_seam(plan, sure=True)
+            if size is None and not told:
                 work.tries[plan.box.id] = VAIN  # it is two boxes, or part of something else
-                if self._weighs_like_two(plan, mass):
-                    self._tell_a_seam(plan)
             return f"{mass:.1f} kg hang on the arm where {most:.1f} kg were the most expected"
         if work.tries.get(plan.box.id, 0) < TWICE and self._weighs_like_two(plan, mass):
             self._tell_a_seam(plan)
