@@ -1,13 +1,17 @@
 """A hand keeps clear of all that a box without a name may be."""
 
+from dataclasses import replace
+from unittest import mock
+
 import numpy as np
 import pytest
-from cells_at_work import DECK, Cell
+from cells_at_work import DECK, SIZE, Cell, Remembering, pile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray
+from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray, the_other_way
 from depal.cell.sight.unexplained import ALONG
+from depal.cell.workplace import Held, Workplace
 from depal.domain import (
     EURO_PALLET,
     BoxId,
@@ -59,6 +63,33 @@ def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_coun
     room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note((0.09, 0.09, 0.09)))
     assert min(np.subtract(room.size, odd)[:2]) >= 2 * ALONG
     assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
+
+
+@given(sizes)
+def test_a_box_that_lies_the_other_way_ends_within_what_is_added_to_it(size: Vector3) -> None:
+    """About the same middle, turned by a quarter."""
+    more = the_other_way(size)
+    for k in (0, 1):
+        assert size[k] + 2 * more[k] == pytest.approx(max(size[:2]))
+        assert more[k] >= 0.0
+    assert more[2] == 0.0
+
+
+def test_what_bears_a_name_and_was_tried_in_vain_is_carried_as_if_it_lay_the_other_way() -> None:
+    """Two boxes in a row are believed one that is turned, with the name that one of them bears."""
+    cell = Cell(1)
+    cell.gripper.breaks = {0: 0.5}
+    cell.sight = Remembering([pile(1)])
+    cell.work.ports = replace(cell.work.ports, sight=cell.sight)
+    lifted, beyond = Workplace.lifted, list[Vector3]()
+
+    def lifting(work: Workplace, held: Held) -> None:
+        beyond.append(held.beyond)
+        lifted(work, held)
+
+    with mock.patch.object(Workplace, "lifted", lifting):
+        cell.works().assert_whole()
+    assert beyond == [the_other_way(SIZE)]
 
 
 @given(sizes)

@@ -30,6 +30,16 @@ def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
     return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
 
 
+def the_other_way(size: Vector3) -> Vector3:
+    """How much farther out a box reaches, at either end of its axes, if it lies the other way [m].
+
+    Args:
+        size: as it was seen, along its own axes [m].
+    """
+    longer = max(size[:2])
+    return (longer - size[0]) / 2, (longer - size[1]) / 2, 0.0
+
+
 def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
     """The room that a box may take beside others, of the height that it is seen in.
 

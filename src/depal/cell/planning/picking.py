@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from depal.cell.breadth import as_broad_as_it_may_be, astray
+from depal.cell.breadth import as_broad_as_it_may_be, astray, the_other_way
 from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
@@ -105,10 +105,16 @@ class Picking:
         return self._promises.scene(pile, zones=zones, shape_of=shape_of)
 
     def _beyond(self, box: Perceived) -> Vector3:
-        """How much longer a box may be than it looks: a name tells, and a sight that is exact."""
+        """How much longer a box may be than it looks.
+
+        A sight that is exact tells, and a name; but what bears a name and was tried in vain may be
+        one that lies the other way.
+        """
         work = self._work
-        if isinstance(box, Recognition) or not work.pile.remembered:
+        if not work.pile.remembered:
             return EXACT
+        if isinstance(box, Recognition):
+            return the_other_way(box.shape.size) if work.tries.get(box.id) else EXACT
         return astray(
             beyond_seen(work.delivery, box.shape.size), unsized=box.id in work.pile.unsized
         )

@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Mapping
 from contextlib import suppress
 
-from depal.cell.breadth import astray
+from depal.cell.breadth import astray, the_other_way
 from depal.cell.choosing import VAIN
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
@@ -31,6 +31,7 @@ from depal.domain import BoxId, Recognition
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
+from depal.geometry import Vector3
 from depal.motion.grasping import EXACT
 from depal.ports import STANDS
 
@@ -148,10 +149,7 @@ class Taking:
         slipped = slipped or self._torn(plan, sealed) or self._wrong_weight(plan, mass)
         if slipped is not None:
             return await self._let_go(plan, slipped, weight)
-        beyond = EXACT
-        if self._work.pile.remembered and not isinstance(plan.box, Recognition):
-            unsized = box in self._work.pile.unsized
-            beyond = astray(beyond_seen(self._work.delivery, size, mass), unsized=unsized)
+        beyond = self._beyond(plan, mass)
         if early > HIGHER:  # it stands as low as it was thought to, and is so much higher
             beyond = (*beyond[:2], max(beyond[2], early))
         self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
@@ -161,6 +159,15 @@ class Taking:
         if lost is not None:
             return await report_loss(self._work, box, lost)
         return Report(((f"{box}.taken", True),))
+
+    def _beyond(self, plan: PickPlan, mass: float) -> Vector3:
+        """How much longer the box in the hand may be than it looked; its mass tells more [kg]."""
+        work, box, size = self._work, plan.box.id, plan.box.shape.size
+        if not work.pile.remembered:
+            return EXACT
+        if isinstance(plan.box, Recognition):
+            return the_other_way(size) if work.tries.get(box) else EXACT
+        return astray(beyond_seen(work.delivery, size, mass), unsized=box in work.pile.unsized)
 
     async def _looked_at_anew(self, box: BoxId) -> str | None:
         """After a try that failed a look comes before the next one; why that is hopeless."""
