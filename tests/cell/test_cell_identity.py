@@ -103,7 +103,7 @@ def test_a_grasp_holds_the_same_face_of_a_box_of_another_size(
     assert dataclasses.replace(grasp, box_from_flange=Pose(moved)).cups == ()
 
 
-@given(size=sizes, turned=st.booleans(), axis=st.integers(0, 1), error=st.floats(-0.08, 0.08))
+@given(size=sizes, turned=st.booleans(), axis=st.integers(0, 1), error=st.floats(-0.3, 0.3))
 def test_a_told_box_lies_within_the_room_that_it_is_given(
     *, size: Vector3, turned: bool, axis: int, error: float
 ) -> None:
@@ -112,10 +112,6 @@ def test_a_told_box_lies_within_the_room_that_it_is_given(
     seen = [*truth]
     seen[axis] = max(seen[axis] + error, 0.05)
     told, beyond = told_size(size, tuple(seen))  # type: ignore[arg-type]
-    off = max(abs(a - b) for a, b in zip(seen, truth, strict=True))
-    other = max(abs(a - b) for a, b in zip(seen, (truth[1], truth[0], truth[2]), strict=True))
-    if off - other >= 0.04:
-        return  # nobody could tell that it does not lie the other way
     shift = abs(seen[axis] - truth[axis]) / 2  # of its middle, seen with one end wrong
     room = (told[axis] + 2 * beyond[axis]) / 2
     assert room >= truth[axis] / 2 + shift - 0.004 - 1e-9

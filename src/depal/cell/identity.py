@@ -189,7 +189,8 @@ def strange_height(delivery: Delivery, height: float) -> float:
 def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:
     """The size of a box by what it turned out to be, and how much farther out it may reach.
 
-    An edge that was seen wrong leaves open which of its two ends was: either may be.
+    An edge that was seen wrong leaves open which of its two ends was: either may be. How the box
+    lies the other edges tell: of a strip of it two are right, however short the third is.
 
     Args:
         told: the product's size [m].
@@ -200,8 +201,9 @@ def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:
         end of each axis [m].
     """
     ways = _ways(told)
-    off = [max(abs(a - b) for a, b in zip(way, seen, strict=True)) for way in ways]
-    best = min(range(2), key=lambda k: (off[k], k))
+    errors = [sorted(abs(a - b) for a, b in zip(way, seen, strict=True)) for way in ways]
+    off = [error[EDGES - 2] for error in errors]
+    best = min(range(2), key=lambda k: (off[k], errors[k], k))
     widest = np.array(ways[best])
     for way, misfit in zip(ways, off, strict=True):
         if misfit < off[best] + ALIKE:
