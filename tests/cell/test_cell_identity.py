@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from depal.cell.identity import (
@@ -103,6 +103,7 @@ def test_a_grasp_holds_the_same_face_of_a_box_of_another_size(
     assert dataclasses.replace(grasp, box_from_flange=Pose(moved)).cups == ()
 
 
+@example(size=(0.39, 0.32, 0.16), turned=False, axis=0, error=-0.2)
 @given(size=sizes, turned=st.booleans(), axis=st.integers(0, 1), error=st.floats(-0.3, 0.3))
 def test_a_told_box_lies_within_the_room_that_it_is_given(
     *, size: Vector3, turned: bool, axis: int, error: float
