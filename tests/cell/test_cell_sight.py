@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from depal.cell.pile import Pile
 from depal.cell.sight import CameraSight, Eyes
@@ -13,7 +15,7 @@ from depal.cell.sight.naming import perceived, turned_like
 from depal.domain import BoxId, DeliveryLine, Detection, Gtin, Product, Recognition
 from depal.errors import DeviceError
 from depal.executive.clock import LoopClock, run_simulated
-from depal.geometry import OrientedBox, Pose
+from depal.geometry import OrientedBox, Pose, Vector3
 from depal.perception.detecting import Refuted
 from depal.perception.faces import Face, Look, SeenBox
 from depal.perception.memory import Memory, Remembered
@@ -216,3 +218,20 @@ def test_a_detected_box_has_the_one_size_of_the_note_that_fits() -> None:
         assert perceived(box).shape == shape
     assert turned_like((0.4, 0.3, 0.25), (0.3, 0.4, 0.25)) == (0.3, 0.4, 0.25)
     assert turned_like((0.4, 0.3, 0.25), (0.5, 0.4, 0.25)) is None
+
+
+@given(
+    st.tuples(*[st.floats(0.1, 0.5)] * 3),
+    st.permutations((0, 1)),
+    st.integers(0, 1),
+    st.floats(0.02, 0.24),
+)
+def test_of_a_box_of_which_a_strip_is_free_the_whole_edges_tell_how_it_lies(
+    size: Vector3, lies: list[int], axis: int, hidden: float
+) -> None:
+    """However short the third one looks: turned by a quarter the case may fit that better."""
+    true = (size[lies[0]], size[lies[1]], size[2])
+    seen = [*true]
+    seen[axis] -= hidden
+    if seen[axis] > 0.02 and min(abs(seen[axis] - true[1 - axis]), np.ptp(true[:2])) > 0.001:
+        assert turned_like(size, (seen[0], seen[1], seen[2]), 0.25) == true

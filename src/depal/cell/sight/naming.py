@@ -59,9 +59,14 @@ def _as_promised(shape: OrientedBox, note: Sequence[DeliveryLine]) -> OrientedBo
 
 
 def turned_like(size: Vector3, measured: Vector3, alike: float = ALIKE) -> Vector3 | None:
-    """A case's size in the order of a measured box's axes, upright; None where it cannot be it."""
+    """A case's size in the order of a measured box's axes, upright; None where it cannot be it.
+
+    How it lies the edges tell that were measured best: the third may be hidden in part.
+    """
     length, width, height = size
-    ways = [(length, width, height), (width, length, height)]
-    off = [max(abs(a - b) for a, b in zip(way, measured, strict=True)) for way in ways]
-    best = min(range(2), key=lambda k: (off[k], k))
-    return ways[best] if off[best] < alike else None
+    found = []
+    for way in ((length, width, height), (width, length, height)):
+        *_, second, most = sorted(abs(a - b) for a, b in zip(way, measured, strict=True))
+        if most < alike:
+            found.append((second, most, len(found), way))
+    return min(found)[3] if found else None
