@@ -5,7 +5,7 @@ import numpy as np
 from depal.cell.identity import SIZE_SPARE, plausible
 from depal.cell.sight.unexplained import ALONG
 from depal.domain import Delivery, Perceived, Recognition
-from depal.geometry import OrientedBox, Vector3
+from depal.geometry import OrientedBox, Pose, Vector3
 
 SIDEWAYS = 0.008
 """A box that no print has named is seen this far off to the side [m]."""
@@ -13,6 +13,9 @@ SIDEWAYS = 0.008
 UPRIGHT = 0.02
 """And one of which nobody has seen an edge so far up or down [m]."""
 
+
+SQUARE = 0.002
+"""Sine of the angle by which a box that stands square may seem to be turned."""
 
 BESIDE = 0.03
 """A held box keeps so far from boxes that no print has named: two of them may be seen as one whose
@@ -30,14 +33,26 @@ def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
     return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
 
 
-def the_other_way(size: Vector3) -> Vector3:
-    """How much farther out a box reaches, at either end of its axes, if it lies the other way [m].
+def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vector3:
+    """How much farther out a box with a name may be than it seems, at either end of its axes [m].
+
+    Its name tells how large it is, and most of them are seen where they are. One that seems to
+    stand askew may stand square, seen with an error that moves its middle as well; one that was
+    tried in vain may lie the other way.
 
     Args:
-        size: as it was seen, along its own axes [m].
+        box: upright, in the cell frame.
+        pallet: `cell_from_pallet`.
+        tried: whether it was tried in vain.
     """
-    longer = max(size[:2])
-    return (longer - size[0]) / 2, (longer - size[1]) / 2, 0.0
+    turn = (pallet.inverse @ box.pose).rotation
+    across = min(abs(turn[0][0]), abs(turn[1][0]))
+    a, b, _ = box.size
+    skew = [0.0, 0.0]
+    if across > SQUARE:
+        skew = [b / 2 * across + SIDEWAYS, a / 2 * across + SIDEWAYS]
+    longer = max(a, b) if tried else 0.0
+    return max(skew[0], (longer - a) / 2), max(skew[1], (longer - b) / 2), 0.0
 
 
 def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:

@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from depal.cell.breadth import as_broad_as_it_may_be, astray, the_other_way
+from depal.cell.breadth import as_broad_as_it_may_be, astray, named_astray
 from depal.cell.identity import beyond_seen, strange_height
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
@@ -107,14 +107,14 @@ class Picking:
     def _beyond(self, box: Perceived) -> Vector3:
         """How much longer a box may be than it looks.
 
-        A sight that is exact tells, and a name; but what bears a name and was tried in vain may be
-        one that lies the other way.
+        A sight that is exact tells, and mostly a name.
         """
         work = self._work
         if not work.pile.remembered:
             return EXACT
         if isinstance(box, Recognition):
-            return the_other_way(box.shape.size) if work.tries.get(box.id) else EXACT
+            pallet, tried = work.layout.pallet.cell_from_pallet, bool(work.tries.get(box.id))
+            return named_astray(box.shape, pallet, tried=tried)
         return astray(
             beyond_seen(work.delivery, box.shape.size), unsized=box.id in work.pile.unsized
         )

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from depal.cell.breadth import astray, the_other_way
+from depal.cell.breadth import astray, named_astray
 from depal.cell.choosing import VAIN
 from depal.cell.hand import most_of
 from depal.cell.identity import (
@@ -49,7 +49,8 @@ class Weighing:
         if not work.pile.remembered:
             return EXACT
         if isinstance(plan.box, Recognition):
-            return the_other_way(size) if work.tries.get(box) else EXACT
+            pallet, tried = work.layout.pallet.cell_from_pallet, bool(work.tries.get(box))
+            return named_astray(plan.box.shape, pallet, tried=tried)
         return astray(beyond_seen(work.delivery, size, mass), unsized=box in work.pile.unsized)
 
     def torn(self, plan: PickPlan, sealed: Mapping[str, float]) -> str | None:

@@ -64,7 +64,7 @@ def turned_like(size: Vector3, measured: Vector3, alike: float = ALIKE) -> Vecto
     How it lies the edges tell that were measured best: the third may be hidden in part.
     """
     length, width, height = size
-    found = []
+    found = list[tuple[float, float, int, Vector3]]()
     for way in ((length, width, height), (width, length, height)):
         *_, second, most = sorted(abs(a - b) for a, b in zip(way, measured, strict=True))
         if most < alike:
