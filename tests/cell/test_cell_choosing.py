@@ -3,11 +3,12 @@
 from dataclasses import replace
 from unittest import mock
 
-from cells_at_work import STORED, Cell, Remembering, name, pile
+import pytest
+from cells_at_work import PERSON, STORED, Cell, Remembering, name, pile
 from hypothesis import given
 from hypothesis import strategies as st
 
-from depal.cell.choosing import may_pass
+from depal.cell.choosing import VAIN, may_pass
 from depal.cell.planning.picking import Picking
 from depal.cell.planning.plans import PickPlan
 from depal.domain import BoxId
@@ -27,13 +28,14 @@ def test_what_is_refused_for_a_neighbour_without_a_name_may_pass(other: int, wor
     assert not may_pass(work, first, words.format(f"{name(2)}0"))
 
 
-def test_where_there_is_no_way_any_more_the_box_is_chosen_anew() -> None:
-    """A look between the choice and the reach may show its neighbours otherwise."""
+@pytest.mark.parametrize("refusals", [0, 1, 2, 9])
+def test_where_there_is_no_way_any_more_the_box_is_chosen_anew(refusals: int) -> None:
+    """A look between the choice and the reach may show its neighbours otherwise; not forever."""
     cell = Cell(1, unknown=[1])
     cell.sight = Remembering([pile(1, [1])])
     cell.work.ports = replace(cell.work.ports, sight=cell.sight)
     cell.reader.script = (("product-1",),) * 4
-    planned, refused = Picking.pick, [True] * 5
+    planned, refused = Picking.pick, [True] * refusals
 
     async def pick(self: Picking, box: BoxId) -> PickPlan | str:
         plan = await planned(self, box)
@@ -41,5 +43,10 @@ def test_where_there_is_no_way_any_more_the_box_is_chosen_anew() -> None:
 
     with mock.patch.object(Picking, "pick", pick):
         cell.works().assert_whole()
-    assert cell.fates == {"b1": STORED}
-    assert [step for step in cell.started if "reach" in step] == ["kr60_reach(b1)"] * 6
+    reached = [step for step in cell.started if "reach" in step]
+    if refusals < VAIN:
+        assert cell.fates == {"b1": STORED}
+        assert reached == ["kr60_reach(b1)"] * (refusals + 1)
+    else:
+        assert cell.fates == {"b1": PERSON}
+        assert reached == ["kr60_reach(b1)"] * VAIN

@@ -13,9 +13,8 @@ SIDEWAYS = 0.008
 UPRIGHT = 0.02
 """And one of which nobody has seen an edge so far up or down [m]."""
 
-
-SQUARE = 0.002
-"""Sine of the angle by which a box that stands square may seem to be turned."""
+ASKEW = 0.002
+"""A box stands askew whose turn against the pallet has a greater sine; the pile squares others."""
 
 BESIDE = 0.03
 """A held box keeps so far from boxes that no print has named: two of them may be seen as one whose
@@ -49,7 +48,7 @@ def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vect
     across = min(abs(turn[0][0]), abs(turn[1][0]))
     a, b, _ = box.size
     skew = [0.0, 0.0]
-    if across > SQUARE:
+    if across > ASKEW:
         skew = [b / 2 * across + SIDEWAYS, a / 2 * across + SIDEWAYS]
     longer = max(a, b) if tried else 0.0
     return max(skew[0], (longer - a) / 2), max(skew[1], (longer - b) / 2), 0.0

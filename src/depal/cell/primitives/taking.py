@@ -65,7 +65,7 @@ class Taking:
         plan = await self._desk.picking.pick(box)
         if isinstance(plan, str):
             if self._work.pile.remembered:  # its neighbours look otherwise than when it was chosen
-                self._work.passed_over.add(box)
+                self._pass_over(box)
             return Report(outcome=Outcome.FAILED, reason=plan)
         least, _ = self._desk.picking.masses(plan.box)
         refusal = self._payload.refusal(box, least, context.limits())
@@ -146,10 +146,15 @@ class Taking:
         work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
         if work.pile.get(box) is None or box in work.pile.hidden:
-            work.passed_over.add(box)
-            work.tries[box] = work.tries.get(box, 0) + 1  # it ends, however often it comes back
+            self._pass_over(box)
             return f"box {box} is not seen on the pallet any more"
         return None
+
+    def _pass_over(self, box: BoxId) -> None:
+        """The box may be chosen anew: that counts as a try, so that it ends however often."""
+        work = self._work
+        work.passed_over.add(box)
+        work.tries[box] = work.tries.get(box, 0) + 1
 
     async def _let_go(self, plan: PickPlan, reason: str, weight: int = 1) -> Report:
         """Vents, draws back out of the view, and lets the box be approached anew.
