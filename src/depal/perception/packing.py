@@ -28,7 +28,10 @@ NODES = 200
 
 
 def packed(
-    rectangles: Sequence[Rectangle], values: Floats, raster: Raster | None = None
+    rectangles: Sequence[Rectangle],
+    values: Floats,
+    raster: Raster | None = None,
+    sure: Flags | None = None,
 ) -> list[int]:
     """The indices of the rectangles that together have the greatest value.
 
@@ -36,6 +39,7 @@ def packed(
         rectangles: in the plane of one raster.
         values: (n,) of each: the logarithm of its odds of being a face.
         raster: what is seen: where something nearer hides a rectangle it may be overlapped.
+        sure: (n,) which go on behind nearer ones where nothing was measured; none if not given.
 
     Returns:
         Indices, increasing; no two of them overlap.
@@ -43,8 +47,9 @@ def packed(
     useful = np.flatnonzero(values > 0.0)
     if not useful.size:
         return []
-    inside = _inside([rectangles[index] for index in useful.tolist()], raster)
-    shared = _different(inside[inside.sum(axis=1) > 1])
+    some = [rectangles[index] for index in useful.tolist()]
+    goes_on = np.zeros(len(some), dtype=np.bool_) if sure is None else sure[useful]
+    shared = _shared(some, raster, goes_on)
     if not len(shared):
         return [int(index) for index in useful]
     result = milp(
@@ -59,8 +64,35 @@ def packed(
     return [int(index) for index in useful[result.x > 0.5]]  # noqa: PLR2004
 
 
-def _inside(rectangles: Sequence[Rectangle], raster: Raster | None) -> Flags:
-    """(points, n): which points of a grid lie inside which rectangles, made a little smaller."""
+def _shared(rectangles: Sequence[Rectangle], raster: Raster | None, sure: Flags) -> Flags:
+    """(rows, n): in each row rectangles of which one may be chosen at the most.
+
+    Args:
+        rectangles: n.
+        raster: what is seen.
+        sure: (n,) which may go on behind nearer ones where nothing was measured: in the shadow
+            of a box, say.
+    """
+    inside, unknown = _inside(rectangles, raster)
+    several = inside.sum(axis=1) > 1
+    rows = _different(inside[several & ~unknown])
+    dark = _different(inside[several & unknown])
+    if not len(dark):
+        return rows
+    depths = np.array([each.depth for each in rectangles])
+    behind = depths[None, :] - depths[:, None]
+    # Each one with what it excludes of the others behind it: these exclude one another, too.
+    excluded = (behind >= 0.0) & ((behind <= HIDES) | ~sure[None, :])
+    of_one = np.concatenate([row & excluded[row] for row in dark])
+    return _different(np.concatenate((rows, of_one[of_one.sum(axis=1) > 1])))
+
+
+def _inside(rectangles: Sequence[Rectangle], raster: Raster | None) -> tuple[Flags, Flags]:
+    """Which points of a grid lie inside which rectangles, made a little smaller.
+
+    Returns:
+        (points, n) that, and (points,) whether nothing was measured at a point.
+    """
     middles = np.array([(each.u, each.v) for each in rectangles])
     halves = np.array([(each.width, each.height) for each in rectangles]) / 2 - OVERLAP / 2
     halves = np.maximum(halves, GRID)
@@ -70,14 +102,17 @@ def _inside(rectangles: Sequence[Rectangle], raster: Raster | None) -> Flags:
     u, v = (np.arange(a, b, GRID) for a, b in zip(lower, upper, strict=True))
     inside = np.zeros((len(v), len(u), len(rectangles)), dtype=np.bool_)
     _cover(u, v, middles, halves, np.column_stack((np.cos(turns), np.sin(turns))), inside)
+    unknown = np.zeros(inside.shape[:2], dtype=np.bool_)
     if raster is not None:
         height, width = raster.depth.shape
         rows = np.clip(np.round(v / raster.step).astype(int), 0, height - 1)
         columns = np.clip(np.round(u / raster.step).astype(int), 0, width - 1)
         depths = np.array([each.depth for each in rectangles])
+        shown = raster.depth[np.ix_(rows, columns)]
+        unknown = ~np.isfinite(shown)
         with np.errstate(invalid="ignore"):
-            inside &= ~(depths - raster.depth[np.ix_(rows, columns)][..., None] > HIDES)
-    return np.asarray(inside.reshape(-1, len(rectangles)))
+            inside &= ~(depths - shown[..., None] > HIDES)
+    return inside.reshape(-1, len(rectangles)), unknown.reshape(-1)
 
 
 @loop_kernel

@@ -29,6 +29,9 @@ MOST = 240
 FIXED = 100.0
 """The value of a face that is known already, greater than that of all that may overlap it."""
 
+SURE = 1.0
+"""A face that is so likely may go on in the shadow of a nearer one [logarithm of odds]."""
+
 NEAR = 0.016
 """A print belongs to a candidate whose sides are all within this of its own [m]."""
 
@@ -154,7 +157,8 @@ class Finder:
         kept = likely[best(candidates[likely], odds[likely], MOST)]
         values = np.concatenate((odds[kept] + self.eager, np.full(len(weighed.fixed), FIXED)))
         rectangles = (*candidates[kept].rectangles, *weighed.fixed)
-        rows = [kept[k] for k in packed(rectangles, values, weighed.raster) if k < len(kept)]
+        chosen = packed(rectangles, values, weighed.raster, values > self.eager + SURE)
+        rows = [kept[k] for k in chosen if k < len(kept)]
         return tuple(
             self._found(candidates, int(row), float(odds[row]), weighed.agreed[row], weighed.prints)
             for row in rows
