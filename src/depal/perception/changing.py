@@ -7,6 +7,7 @@ import numpy.typing as npt
 from depal.perception.faces import Raster
 
 Flags = npt.NDArray[np.bool_]
+Bytes = npt.NDArray[np.uint8]
 Narrow = npt.NDArray[np.float32]
 
 MOVED = 0.022
@@ -32,15 +33,14 @@ def changed(before: Raster, now: Raster) -> Flags:
     Returns:
         (h, w) of `now`.
     """
-    old = _seen_as(before, now)
-    known = old[..., 4] > 0.0
-    depth = np.where(known, old[..., 3], np.nan)
+    old, depth, known = _seen_as(before, now)
     differs = known != now.known
     with np.errstate(invalid="ignore"):
         differs |= np.abs(depth - now.depth) > MOVED
     both = known & now.known
-    colour = np.abs(_tones(old[..., :3], both, now.step) - _tones(now.colour, both, now.step))
-    differs |= both & (colour.max(axis=2) > PALER)
+    colour = np.abs(_tones(old, both, now.step) - _tones(now.colour, both, now.step))
+    paler = colour > PALER
+    differs |= both & (paler[..., 0] | paler[..., 1] | paler[..., 2])
     wide = max(round(SPECK / now.step) | 1, 3)
     square = np.ones((wide, wide), dtype=np.uint8)
     return np.asarray(cv2.morphologyEx(differs.astype(np.uint8), cv2.MORPH_OPEN, square) > 0)
@@ -53,22 +53,26 @@ def shift_between(before: Raster, now: Raster) -> tuple[int, int]:
     return -round(y / now.step), -round(x / now.step)
 
 
-def _seen_as(before: Raster, now: Raster) -> Narrow:
-    """(h, w, 5) colour, depth and knownness of `before` at the pixels of `now`."""
-    down, right = shift_between(before, now)
-    known = before.known.astype(np.float32)
-    depth = np.where(before.known, before.depth, 0.0).astype(np.float32)
-    every = np.dstack((before.colour.astype(np.float32), depth, known))
-    shift = np.array([[1.0, 0.0, right], [0.0, 1.0, down]])
+def _seen_as(before: Raster, now: Raster) -> tuple[Bytes, Narrow, Flags]:
+    """Colour, depth and knownness of `before` at the pixels of `now`; nan where nothing is."""
     height, width = now.known.shape
-    layers = [
-        cv2.warpAffine(np.ascontiguousarray(each), shift, (width, height), flags=cv2.INTER_NEAREST)
-        for each in np.moveaxis(every, 2, 0)
+    colour = np.zeros((height, width, 3), dtype=np.uint8)
+    depth = np.full((height, width), np.nan, dtype=np.float32)
+    known = np.zeros((height, width), dtype=np.bool_)
+    shifts = shift_between(before, now)
+    pairs = [
+        (slice(max(-by, 0), min(old, new - by)), slice(max(by, 0), min(new, old + by)))
+        for by, old, new in zip(shifts, before.known.shape, now.known.shape, strict=True)
     ]
-    return np.dstack(layers).astype(np.float32)
+    there, here = tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
+    if all(part.start < part.stop for part in here):
+        known[here] = before.known[there]
+        depth[here] = np.where(before.known[there], before.depth[there], np.nan)
+        colour[here] = before.colour[there]
+    return colour, depth, known
 
 
-def _tones(colour: npt.NDArray[np.generic], known: Flags, step: float) -> Narrow:
+def _tones(colour: Bytes, known: Flags, step: float) -> Narrow:
     """(h, w, 3) logarithms of smoothed colours, of what is known."""
     weight = known.astype(np.float32)
     wide = SMOOTH / step

@@ -25,7 +25,7 @@ from depal.perception.detecting import (
 )
 from depal.perception.faces import Face, Look, Raster, Rectangle
 from depal.perception.locating import located
-from depal.perception.rasters import Region, rasters_of
+from depal.perception.rasters import Region, Taken, filled, rasters_of
 from depal.perception.recognition import Gallery, sightings
 from depal.perception.relations import relations_of
 from depal.ports import Frame
@@ -162,8 +162,9 @@ class Observer:
         return _laid_on(weighed.raster, self.finder.chosen(weighed, implied))
 
     def _weighed(self, raster: Raster, kept: Sequence[Face], known: Known) -> Weighed:
-        prints = None if known.gallery is None else printed_on(raster, known.gallery)
         fixed = [rectangle_of(raster, face) for face in kept]
+        taken = Taken.by(raster, fixed) if fixed else None
+        prints = None if known.gallery is None else printed_on(raster, known.gallery, taken)
         refuted = known.refuted.on(raster)
         return self.finder.weighed(raster, known.expected, prints, fixed, refuted)
 
@@ -190,9 +191,10 @@ def _apart(face: Face, other: Face) -> float:
     return max(middles, *(abs(a - b) for a, b in zip(face.size, other.size, strict=True)))
 
 
-def printed_on(raster: Raster, gallery: Gallery) -> tuple[Printed, ...]:
-    """Where prints appear on a raster."""
-    return tuple(Printed(each.rectangle, each.name) for each in sightings(raster, gallery))
+def printed_on(raster: Raster, gallery: Gallery, taken: Taken | None = None) -> tuple[Printed, ...]:
+    """Where prints appear on a raster, but for what of it belongs to known faces."""
+    seen = sightings(raster, gallery, taken)
+    return tuple(Printed(each.rectangle, each.name) for each in seen)
 
 
 def rectangle_of(raster: Raster, face: Face) -> Rectangle:
@@ -236,11 +238,10 @@ def _unchanged(
     near = cv2.dilate(differs.astype(np.uint8), np.ones((reach, reach), dtype=np.uint8)) > 0
     kept, explained = [], np.zeros(now.known.shape, dtype=np.uint8)
     for face in faces:
-        outline = np.round(rectangle_of(now, face).corners / now.step).astype(np.int32)
-        inside = np.asarray(cv2.fillConvexPoly(np.zeros_like(explained), outline, 1), np.uint8)
-        if (near & (inside > 0)).sum() <= TOUCHED * max(int(inside.sum()), 1):
+        down, across, inside = filled(rectangle_of(now, face), now.step, explained.shape)
+        if (near[down, across] & inside).sum() <= TOUCHED * max(int(inside.sum()), 1):
             kept.append(face)
-            explained |= inside
+            explained[down, across] |= inside
     open_ = ((now.known | near) & (explained == 0)).astype(np.uint8)
     _, labels = cv2.connectedComponents(open_)
     touched = np.unique(labels[near & (open_ > 0)])

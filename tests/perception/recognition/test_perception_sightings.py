@@ -11,8 +11,9 @@ from printed_faces import PLAIN, SIBLING, STRANGER, A, book_of_drawings, note_of
 
 from depal.domain import Product
 from depal.geometry import Pose
-from depal.perception.faces import Facing, Raster
+from depal.perception.faces import Facing, Raster, Rectangle
 from depal.perception.pictures import side_size
+from depal.perception.rasters import Taken
 from depal.perception.recognition import gallery_of, sightings
 from depal.perception.recognition.sightings import Sighting
 from depal.simulation.imaging.photographs import drawn
@@ -122,6 +123,16 @@ def test_the_light_does_not_move_a_sighting(gains: tuple[float, ...]) -> None:
     assert plain is not None
     assert other is not None
     assert other.name.score == pytest.approx(plain.name.score, abs=0.05)
+
+
+def test_nothing_is_looked_for_where_a_face_is_known() -> None:
+    """The same print beside it is found as if the other were not there."""
+    raster = raster_with([(A, "side", 0.3, 0.4, 0.0), (A, "side", 0.7, 0.4, 0.0)])
+    known = Rectangle(0.3, 0.4, *side_size(A, "side"), depth=0.3)
+    every, rest = (sightings(raster, GALLERY, taken) for taken in (None, Taken.by(raster, [known])))
+    assert at(every, 0.3, 0.4) is not None
+    assert at(rest, 0.3, 0.4) is None
+    assert at(rest, 0.7, 0.4) == at(every, 0.7, 0.4)
 
 
 def test_an_empty_raster_shows_nothing() -> None:

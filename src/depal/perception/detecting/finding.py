@@ -15,6 +15,7 @@ from depal.perception.detecting.refuting import RefutedFaces
 from depal.perception.faces import Facing, Name, Raster, Rectangle
 from depal.perception.packing import packed
 from depal.perception.proposals.candidates import Candidates, best, by_lines, placed
+from depal.perception.rasters import Taken
 from depal.perception.scoring import FaceScore, described, doubts, shipped_score
 from depal.perception.seams import Seams, directions_of, seams_along
 
@@ -132,7 +133,8 @@ class Finder:
         """
         seams = seams_along(raster, directions_of(raster, DIRECTIONS[raster.facing]))
         sizes = expected.faces(raster.facing)
-        candidates, agreed = candidates_of(seams, sizes, prints)
+        taken = Taken.by(raster, fixed) if fixed else None
+        candidates, agreed = candidates_of(seams, sizes, prints, taken)
         shares = agreed.max(axis=1) if agreed.shape[1] else np.full(len(candidates), -1.0)
         shares = np.where(shares < 0.0, 0.0 if prints is not None else -1.0, shares)
         features = described(candidates.measured, candidates.sizes, sizes, shares)
@@ -185,6 +187,7 @@ def candidates_of(
     seams: Sequence[Seams],
     sizes: Sequence[tuple[float, float]],
     prints: Sequence[Printed] | None,
+    taken: Taken | None = None,
 ) -> tuple[Candidates, Floats]:
     """Candidates of both kinds, and how well prints agree with them.
 
@@ -192,11 +195,12 @@ def candidates_of(
         seams: the evidence of edges in each direction.
         sizes: widths and heights of faces that are expected [m].
         prints: where prints were seen; None where none was looked for.
+        taken: what of the raster belongs to known faces.
 
     Returns:
         The candidates, and (n, prints) how well each print's place agrees, in [0, 1].
     """
-    lines = by_lines(seams, sizes)
+    lines = by_lines(seams, sizes, taken)
     if not prints:
         return lines, np.zeros((len(lines), 0))
     printed = placed(seams, [each.rectangle for each in prints], sizes)

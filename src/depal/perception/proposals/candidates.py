@@ -10,6 +10,7 @@ from depal.perception.faces import Rectangle
 from depal.perception.proposals import kernels
 from depal.perception.proposals.kernels import FEATURES
 from depal.perception.proposals.lines import Rectangles, between_lines, measured, running
+from depal.perception.rasters import Taken
 from depal.perception.seams import Seams
 
 Floats = npt.NDArray[np.float64]
@@ -67,14 +68,17 @@ class Candidates:
         )
 
 
-def by_lines(seams: Sequence[Seams], sizes: Sequence[tuple[float, float]]) -> Candidates:
+def by_lines(
+    seams: Sequence[Seams], sizes: Sequence[tuple[float, float]], taken: Taken | None = None
+) -> Candidates:
     """Rectangles between edges, in every direction that edges have.
 
     Args:
         seams: the evidence of edges in each direction.
         sizes: widths and heights of faces that are expected [m]; none where nothing is.
+        taken: what of the raster belongs to known faces.
     """
-    found = Candidates.joined([_in_raster(between_lines(each, sizes)) for each in seams])
+    found = Candidates.joined([_in_raster(between_lines(each, sizes, taken)) for each in seams])
     good = (found.measured[:, 10] >= FEWEST) & np.isfinite(found.measured[:, 16])
     return found[np.flatnonzero(good)]
 

@@ -8,6 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.proposals import kernels, parts, surfaces
+from depal.perception.rasters import Taken
 from depal.perception.seams import Seams
 
 Floats = npt.NDArray[np.float64]
@@ -63,17 +64,23 @@ class Rectangles:
     features: Floats
 
 
-def between_lines(seams: Seams, sizes: Sequence[tuple[float, float]]) -> Rectangles:
+def between_lines(
+    seams: Seams, sizes: Sequence[tuple[float, float]], taken: Taken | None = None
+) -> Rectangles:
     """Rectangles that edges in one direction suggest.
 
     Args:
         seams: the evidence of edges.
         sizes: widths and heights of faces that are expected [m]; none where nothing is.
+        taken: what of the raster, before it was turned, belongs to known faces.
     """
     rows, columns = running(seams)
+    here = None if taken is None else taken.turned(seams.raster_from_turned, seams.level.shape)
     found = _corners(seams, rows, columns)
-    candidates = [_by_pairs(seams, found)]
-    candidates += [_by_sizes(seams, found, rows, columns, sizes)]
+    candidates = [_left(_by_pairs(seams, found), here)]
+    pixels = _left(_by_sizes(seams, found, sizes), here)
+    kernels.snapped(rows, columns, round(SNAP / seams.step), 1, pixels)
+    candidates += [pixels]
     pixels = _different(np.concatenate(candidates))
     kernels.snapped(rows, columns, max(round(NEAR / seams.step), 1), 1, pixels)
     wide, high = (pixels[:, 2:] - pixels[:, :2]).T
@@ -148,14 +155,13 @@ def _by_pairs(seams: Seams, found: list[Ints]) -> Ints:
     return np.concatenate((first, out[:count]))
 
 
-def _by_sizes(
-    seams: Seams,
-    found: list[Ints],
-    rows: Floats,
-    columns: Floats,
-    sizes: Sequence[tuple[float, float]],
-) -> Ints:
-    """From every corner a rectangle of every size, its other sides where edges are near."""
+def _left(pixels: Ints, taken: Taken | None) -> Ints:
+    """The rectangles that known faces leave."""
+    return pixels if taken is None else pixels[taken.leaves(pixels)]
+
+
+def _by_sizes(seams: Seams, found: list[Ints], sizes: Sequence[tuple[float, float]]) -> Ints:
+    """From every corner a rectangle of every size."""
     height, width = seams.level.shape
     made = [np.zeros((0, 4), dtype=np.int64)]
     for wide, high in sizes:
@@ -166,9 +172,7 @@ def _by_sizes(
     pixels = np.concatenate(made)
     inside = (pixels[:, :2] >= 0).all(axis=1)
     inside &= (pixels[:, 2] < width) & (pixels[:, 3] < height)
-    pixels = pixels[inside]
-    kernels.snapped(rows, columns, round(SNAP / seams.step), 1, pixels)
-    return np.asarray(pixels)
+    return np.asarray(pixels[inside])
 
 
 def _rough(pixels: Ints, rows: Floats, columns: Floats) -> Floats:

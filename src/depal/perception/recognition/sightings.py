@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from depal.perception.faces import Name, Raster, Rectangle
+from depal.perception.rasters import Taken
 from depal.perception.recognition.agreement import cosine_of
 from depal.perception.recognition.features import Features, features_of
 from depal.perception.recognition.patches import FINE, cut_out
@@ -54,12 +55,13 @@ class Sighting:
     seen: float = 1.0
 
 
-def sightings(raster: Raster, gallery: Gallery) -> tuple[Sighting, ...]:
+def sightings(raster: Raster, gallery: Gallery, taken: Taken | None = None) -> tuple[Sighting, ...]:
     """Looks for every print everywhere.
 
     Args:
         raster: a front elevation or a top plan, in any step up to 4 mm.
         gallery: what may come.
+        taken: what of the raster belongs to known faces: nothing is looked for there.
 
     Returns:
         Places with their prints, the best score first. They may overlap.
@@ -69,6 +71,10 @@ def sightings(raster: Raster, gallery: Gallery) -> tuple[Sighting, ...]:
     outline = fine.thinned(max(round(FINE * OUTLINE / raster.step), 1)).flattened()
     found = peaks(outline, raster.facing, gallery)
     places = _places(found, outline.step)[:PLACES]
+    if taken is not None and places:
+        pixels = [_pixels(place[0], outline.step / raster.step, raster.step) for place in places]
+        left = taken.leaves(np.array(pixels))
+        places = [place for place, free in zip(places, left, strict=True) if free]
     seen = [_sighting(place, raster, fine, outline.step) for place in places]
     kept = [sighting for sighting in seen if sighting is not None]
     kept.sort(key=lambda sighting: -sighting.name.score)
@@ -95,6 +101,19 @@ def _same_place(one: Peak, other: Peak, step: float) -> bool:
         return False
     (a, b), (c, d) = _size(one), _size(other)
     return abs(a - c) < ALIKE and abs(b - d) < ALIKE
+
+
+def _pixels(peak: Peak, times: float, step: float) -> tuple[int, int, int, int]:
+    """Left, top, right and bottom of a peak's print on the raster [pixel].
+
+    Args:
+        peak: in pixels that are coarser.
+        times: so many of the raster's pixels are one of those.
+        step: edge of a pixel of the raster [m].
+    """
+    (width, height), x, y = _size(peak), peak.column * times, peak.row * times
+    across, down = width / step / 2, height / step / 2
+    return round(x - across), round(y - down), round(x + across), round(y + down)
 
 
 def _size(peak: Peak) -> tuple[float, float]:
