@@ -91,4 +91,5 @@ def test_what_hangs_in_the_air_stands_on_something_that_nobody_has_seen(
 def test_of_what_reaches_into_what_carries_it_nothing_hangs() -> None:
     """Heights are measured with an error."""
     deck = Deck(0.144, 0.0)
-    assert props([standing(0.144, 0.3), standing(0.444 - COARSE + 0.001, 0.3, "b2")], deck) == ()
+    lower, upper = standing(0.144, 0.3), standing(0.444 - COARSE.level + 0.001, 0.3, "b2")
+    assert props([lower, upper], deck) == ()

@@ -1,11 +1,13 @@
 """What the cell believes stands on the pallet, and what has left it."""
 
+import math
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.departures import Departure, Departures, Fate
-from depal.cell.pile import LEVEL, MISSED, Deck, Pile, settled
+from depal.cell.pile import COARSE, FINE, MISSED, Deck, Pile, settled
 from depal.domain import BoxId, Detection, Gtin, Perceived, Recognition
 from depal.geometry import OrientedBox
 from depal.ports import View
@@ -77,7 +79,7 @@ def test_a_box_is_never_believed_far_from_where_it_was_seen(
     ]
     for before, after in zip(boxes, settled(boxes, Deck(0.144, 0.0)), strict=True):
         assert after.shape.centre[:2] == before.shape.centre[:2]
-        assert abs(after.shape.centre[2] - before.shape.centre[2]) <= LEVEL
+        assert abs(after.shape.centre[2] - before.shape.centre[2]) <= FINE.level
         assert after.shape.pose.rotation[1][0] == pytest.approx(0.0)
 
 
@@ -120,6 +122,21 @@ def test_only_a_box_without_a_name_is_set_on_what_is_far_from_its_bottom(
     assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5 + side * gap)
     pile.see(from_cameras(1.0, Recognition(box.id, box.shape, Gtin("g"))))
     assert pile.boxes[0].shape.centre[2] == pytest.approx(0.5)
+
+
+@given(st.floats(-0.78, 0.78), st.floats(-0.5, 0.5))
+def test_a_box_without_a_name_stands_square_unless_it_is_clearly_askew(
+    askew: float, pallet: float
+) -> None:
+    """A print tells how its box is turned; edges without one may be a shadow's."""
+    pile = Pile(Deck(0.35, pallet))
+    shape = OrientedBox.upright((1.6, 0.0, 0.5), (0.3, 0.2, 0.3), pallet + askew)
+    box = Detection(BoxId("b1"), shape)
+    for seen, slack in ((box, COARSE), (Recognition(box.id, shape, Gtin("g")), FINE)):
+        pile.see(from_cameras(0.0, seen))
+        expected = pallet + (0.0 if abs(askew) < slack.square else askew)
+        rotation = pile.boxes[0].shape.pose.rotation
+        assert math.atan2(rotation[1][0], rotation[0][0]) == pytest.approx(expected)
 
 
 @given(st.floats(-0.024, 0.024))

@@ -19,13 +19,6 @@ MISSED = 20
 EQUAL = 0.003
 """Error of a box whose sight tells none [m, rad]."""
 
-LEVEL = 0.010
-"""A box whose bottom is this near to what could carry it stands on it [m]."""
-
-COARSE = 0.025
-"""The same for a box without a name in a sight that measures with cameras: of such a box often the
-top alone was seen, at a distance that is the worst of what cameras measure [m]."""
-
 HANGING = 0.08
 """A box whose bottom is higher than this above all that was seen below it stands on a box that has
 not been found: no box is less high [m]."""
@@ -33,8 +26,27 @@ not been found: no box is less high [m]."""
 OVER = 0.015
 """Boxes that overlap on the ground by more than this may carry one another [m]."""
 
-SQUARE = math.radians(1.5)
-"""A box that is turned less than this against the pallet stands square on it."""
+
+@dataclass(frozen=True, slots=True)
+class Slack:
+    """How wrong the sight of a box may be.
+
+    Attributes:
+        level: a box whose bottom is this near to what could carry it stands on it [m].
+        square: one that is turned less than this against the pallet stands square on it [rad].
+    """
+
+    level: float = 0.010
+    square: float = math.radians(1.5)
+
+
+FINE = Slack()
+"""Of a sight that is exact, and of boxes with a name."""
+
+COARSE = Slack(0.025, math.radians(5.0))
+"""Of a box without a name in a sight that measures with cameras. Often the top alone was seen, at a
+distance that is the worst of what cameras measure; and what was taken for its edges may be those of
+a shadow, askew by some degrees. Pallets are stacked square."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -182,7 +194,7 @@ class Pile:
         known = [self._known(self._boxes[name]) for name in sorted(self._boxes)]
         if self._deck is None:
             return tuple(known)
-        return settled(known, self._deck, self.unsized, COARSE if self.remembered else LEVEL)
+        return settled(known, self._deck, self.unsized, COARSE if self.remembered else FINE)
 
     @property
     def unborne(self) -> tuple[OrientedBox, ...]:
@@ -232,7 +244,7 @@ def settled(
     boxes: Iterable[Perceived],
     deck: Deck,
     unsized: Collection[BoxId] = (),
-    level: float = LEVEL,
+    unnamed: Slack = FINE,
 ) -> tuple[Perceived, ...]:
     """Boxes as they can stand: square to the pallet, and on what carries them, where it is near.
 
@@ -240,8 +252,7 @@ def settled(
         boxes: upright, in the cell frame.
         deck: what the lowest stand on.
         unsized: boxes of which an edge is a guess: their faces stay where they were seen.
-        level: a box without a name stands on what is this near to its bottom; one with a name
-            is measured better [m].
+        unnamed: how wrong the sight of boxes without a name may be; of others it is better.
 
     Returns:
         The same boxes in the same order.
@@ -253,12 +264,12 @@ def settled(
         quarter = math.pi / 2
         off = _yaw(box.shape) - deck.yaw
         away = off - quarter * round(off / quarter)
-        yaw = _yaw(box.shape) - (away if abs(away) < SQUARE else 0.0)
+        slack = FINE if isinstance(box, Recognition) else unnamed
+        yaw = _yaw(box.shape) - (away if abs(away) < slack.square else 0.0)
         bottom = _bottom(box.shape)
         if box.id not in unsized:
-            near = LEVEL if isinstance(box, Recognition) else level
             below = [other.shape for other in done.values()]
-            bottom = _carried(box.shape, below, deck, near)
+            bottom = _carried(box.shape, below, deck, slack.level)
         x, y, _ = centre
         pose = Pose.from_yaw((x, y, bottom + size[2] / 2), yaw)
         done[box.id] = replace(box, shape=OrientedBox(pose, size))
@@ -277,7 +288,7 @@ def props(boxes: Iterable[Perceived], deck: Deck) -> tuple[OrientedBox, ...]:
     for box in shapes:
         bottom = _bottom(box)
         tops = (_bottom(other) + other.size[2] for other in shapes if _over(box, other))
-        floor = max((top for top in tops if top < bottom + COARSE), default=deck.height)
+        floor = max((top for top in tops if top < bottom + COARSE.level), default=deck.height)
         if bottom - floor > HANGING:
             x, y, _ = box.centre
             pose = Pose((x, y, (bottom + floor) / 2), box.pose.rotation)
