@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.breadth import SIDEWAYS, as_broad_as_it_may_be, astray, named_astray
+from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
 from depal.cell.workplace import Held, Workplace
 from depal.domain import (
@@ -63,7 +64,33 @@ def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_coun
     shape = OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), odd)
     room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note((0.09, 0.09, 0.09)))
     assert min(np.subtract(room.size, odd)[:2]) >= 2 * ALONG
+    assert top_of(room) == pytest.approx(top_of(shape) + ALONG)
+    assert bottom_of(room) == pytest.approx(bottom_of(shape))
     assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
+
+
+@given(sizes, st.tuples(off, off, off), st.floats(-3, 3))
+def test_what_is_roughly_as_large_as_a_product_may_be_higher_than_it_looks(
+    size: Vector3, errors: Vector3, yaw: float
+) -> None:
+    """What has its size is as high as it looks: its top was seen (dev-026)."""
+    seen = (size[0] + errors[0], size[1] + errors[1], size[2] + errors[2])
+    shape = OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), seen)
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note(size))
+    turned = (size[1], size[0], size[2])
+    off_by = min(np.abs(np.subtract(way, seen)).max() for way in (size, turned))
+    assert bottom_of(room) == pytest.approx(bottom_of(shape))
+    assert top_of(room) == pytest.approx(top_of(shape) + (ALONG if off_by > ALIKE else 0.0))
+
+
+def top_of(shape: OrientedBox) -> float:
+    """Of an upright box [m]."""
+    return shape.centre[2] + shape.size[2] / 2
+
+
+def bottom_of(shape: OrientedBox) -> float:
+    """Of an upright box [m]."""
+    return shape.centre[2] - shape.size[2] / 2
 
 
 @given(sizes, st.floats(-3, 3), st.floats(0.004, 0.05), end, shifts)

@@ -3,6 +3,7 @@
 import numpy as np
 
 from depal.cell.identity import SIZE_SPARE, plausible
+from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
 from depal.domain import Delivery, Perceived, Recognition
 from depal.geometry import OrientedBox, Pose, Vector3
@@ -55,11 +56,12 @@ def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vect
 
 
 def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
-    """The room that a box may take beside others, of the height that it is seen in.
+    """The room that a box may take beside others.
 
     Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
     was seen wrongly nobody knows. What has the size of none is no one box, and reaches as far as
-    what is seen beside it counts as its own. A name tells.
+    what is seen beside and above it counts as its own; so does, upward, what has the size of one
+    but roughly: its edges were seen wrongly. A name tells.
 
     Args:
         box: upright.
@@ -68,18 +70,22 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
     shape = box.shape
     if isinstance(box, Recognition):
         return shape
-    a, b, c = shape.size
-    longest = np.array((a, b))
+    size = np.array(shape.size)
+    most, nearest = size.copy(), np.inf
     products = plausible(delivery, shape.size)
     if delivery.lines and not products:
-        longest += ALONG
+        most += ALONG
     for product in products:
         along, across, high = product.size
-        for way in ((along, across), (across, along)):
-            if max(abs(way[0] - a), abs(way[1] - b), abs(high - c)) <= SIZE_SPARE:
-                longest = np.maximum(longest, way)
-    width, depth = (2 * (longest + SIDEWAYS) - (a, b)).tolist()
-    return OrientedBox(shape.pose, (width, depth, c))
+        for way in ((along, across, high), (across, along, high)):
+            off = float(np.abs(np.subtract(way, size)).max())
+            if off <= SIZE_SPARE:
+                most, nearest = np.maximum(most, way), min(nearest, off)
+    most[2] = size[2] + (ALONG if delivery.lines and nearest > ALIKE else 0.0)
+    width, depth = (2 * (most + SIDEWAYS) - size)[:2].tolist()
+    x, y, z = shape.centre
+    pose = Pose((x, y, z + float(most[2] - size[2]) / 2), shape.pose.rotation)
+    return OrientedBox(pose, (width, depth, float(most[2])))
 
 
 def room_beside(box: Perceived, delivery: Delivery) -> OrientedBox:
