@@ -69,6 +69,17 @@ def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_coun
     assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
 
 
+@given(st.floats(0.1, 0.2), st.floats(0.26, 0.32), st.floats(0.4, 0.5))
+def test_what_would_have_to_lie_on_its_side_has_the_size_of_no_product(
+    low: float, middle: float, high: float
+) -> None:
+    """Boxes stand upright: what looks like one on its side was seen wrongly (dev-013)."""
+    lying = Detection(BoxId("b"), OrientedBox.upright((1.8, 0.1, 0.5), (high, low, middle)))
+    room = as_broad_as_it_may_be(lying, note((middle, low, high)))
+    assert min(np.subtract(room.size, lying.shape.size)[:2]) >= 2 * ALONG
+    assert top_of(room) == pytest.approx(top_of(lying.shape) + ALONG)
+
+
 @given(sizes, st.tuples(off, off, off), st.floats(-3, 3))
 def test_what_is_roughly_as_large_as_a_product_may_be_higher_than_it_looks(
     size: Vector3, errors: Vector3, yaw: float

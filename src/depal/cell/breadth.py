@@ -72,15 +72,14 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
         return shape
     size = np.array(shape.size)
     most, nearest = size.copy(), np.inf
-    products = plausible(delivery, shape.size)
-    if delivery.lines and not products:
-        most += ALONG
-    for product in products:
+    for product in plausible(delivery, shape.size):
         along, across, high = product.size
         for way in ((along, across, high), (across, along, high)):
             off = float(np.abs(np.subtract(way, size)).max())
             if off <= SIZE_SPARE:
                 most, nearest = np.maximum(most, way), min(nearest, off)
+    if delivery.lines and np.isinf(nearest):  # of none that stands upright, as boxes do
+        most += ALONG
     most[2] = size[2] + (ALONG if delivery.lines and nearest > ALIKE else 0.0)
     width, depth = (2 * (most + SIDEWAYS) - size)[:2].tolist()
     x, y, z = shape.centre
