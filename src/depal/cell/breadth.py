@@ -11,6 +11,10 @@ from depal.geometry import OrientedBox, Pose, Vector3
 SIDEWAYS = 0.008
 """A box that no print has named is seen this far off to the side [m]."""
 
+NAMED = 0.005
+"""So much farther out than it seems a box with a name is carried: its print tells where it is to a
+millimetre or two, but of some it is laid on wrongly by a centimetre [m]."""
+
 UPRIGHT = 0.02
 """And one of which nobody has seen an edge so far up or down [m]."""
 
@@ -36,7 +40,7 @@ def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
 def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vector3:
     """How much farther out a box with a name may be than it seems, at either end of its axes [m].
 
-    Its name tells how large it is, and most of them are seen where they are. One that seems to
+    Its name tells how large it is, and most are seen where they are, to `NAMED`. One that seems to
     stand askew may stand square, seen with an error that moves its middle as well; one that was
     tried in vain may lie the other way.
 
@@ -48,7 +52,7 @@ def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vect
     turn = (pallet.inverse @ box.pose).rotation
     across = min(abs(turn[0][0]), abs(turn[1][0]))
     a, b, _ = box.size
-    skew = [0.0, 0.0]
+    skew = [NAMED, NAMED]
     if across > ASKEW:
         skew = [b / 2 * across + SIDEWAYS, a / 2 * across + SIDEWAYS]
     longer = max(a, b) if tried else 0.0
