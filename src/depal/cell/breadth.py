@@ -15,7 +15,7 @@ NAMED = 0.005
 """So much farther out than it seems a box with a name is carried: its print tells where it is to a
 millimetre or two, but of some it is laid on wrongly by a centimetre [m]."""
 
-UPRIGHT = 0.02
+UPRIGHT = 0.04
 """And one of which nobody has seen an edge so far up or down [m]."""
 
 ASKEW = 0.002
