@@ -118,6 +118,19 @@ def test_a_told_box_lies_within_the_room_that_it_is_given(
     assert room >= truth[axis] / 2 + shift - 0.004 - 1e-9
 
 
+@given(hidden=st.floats(0.05, 0.09), error=st.floats(0.0, 0.01), turned=st.booleans())
+def test_a_box_of_which_two_edges_are_hidden_in_part_has_room_for_both_ways_to_lie(
+    *, hidden: float, error: float, turned: bool
+) -> None:
+    """One of them may then be as long as the other edge is, and it seems to lie so (dev-021)."""
+    size = (0.39, 0.32, 0.16) if not turned else (0.32, 0.39, 0.16)
+    seen = (size[0] - hidden, size[1] - hidden + error, 0.16)
+    told, beyond = told_size((0.39, 0.32, 0.16), seen)
+    shift = hidden / 2  # of its middle, where one end of either edge is hidden
+    for axis in (0, 1):
+        assert (told[axis] + 2 * beyond[axis]) / 2 >= size[axis] / 2 + shift - error / 2 - 1e-9
+
+
 @given(sizes)
 def test_a_box_that_was_seen_right_is_given_no_room(size: Vector3) -> None:
     """Nor is one of which all edges fit one product alone."""

@@ -190,7 +190,9 @@ def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:
     """The size of a box by what it turned out to be, and how much farther out it may reach.
 
     An edge that was seen wrong leaves open which of its two ends was: either may be. How the box
-    lies the other edges tell: of a strip of it two are right, however short the third is.
+    lies the other edges tell: of a strip of it two are right, however short the third is. Where
+    two edges are short the worst one tells better, so where both tell different ways it has room
+    for both.
 
     Args:
         told: the product's size [m].
@@ -205,8 +207,8 @@ def told_size(told: Vector3, seen: Vector3) -> tuple[Vector3, Vector3]:
     off = [error[EDGES - 2] for error in errors]
     best = min(range(2), key=lambda k: (off[k], errors[k], k))
     widest = np.array(ways[best])
-    for way, misfit in zip(ways, off, strict=True):
-        if misfit < off[best] + ALIKE:
+    for way, error in zip(ways, errors, strict=True):
+        if error[EDGES - 2] < off[best] + ALIKE or error[-1] < errors[best][-1]:
             wrong = np.array(way) - np.array(seen)
             wrong[np.abs(wrong) < NOTICED] = 0.0
             widest = np.maximum(widest, way + np.abs(wrong))
