@@ -104,13 +104,11 @@ class Finder:
         tops: the same for faces that look up.
         eager: added to every candidate's logarithm of odds before they are weighed against each
             other: so that what is not sure is found too, where nothing else explains the place.
-        eager_for_tops: the same for faces that look up, which are missed more often.
     """
 
     score: FaceScore = field(default_factory=shipped_score)
     tops: FaceScore = field(default_factory=partial(shipped_score, Facing.TOP))
     eager: float = 2.5
-    eager_for_tops: float = 2.75
 
     def score_of(self, facing: Facing) -> FaceScore:
         """The score of faces that look this way."""
@@ -156,13 +154,12 @@ class Finder:
         candidates, odds = weighed.candidates, weighed.odds
         if not len(candidates):
             return ()
-        eager = self.eager_for_tops if weighed.raster.facing is Facing.TOP else self.eager
         odds = odds + spoken_for(candidates, implied)
-        likely = np.flatnonzero(odds > -eager)
+        likely = np.flatnonzero(odds > -self.eager)
         kept = likely[best(candidates[likely], odds[likely], MOST)]
-        values = np.concatenate((odds[kept] + eager, np.full(len(weighed.fixed), FIXED)))
+        values = np.concatenate((odds[kept] + self.eager, np.full(len(weighed.fixed), FIXED)))
         rectangles = (*candidates[kept].rectangles, *weighed.fixed)
-        chosen = packed(rectangles, values, weighed.raster, values > eager + SURE)
+        chosen = packed(rectangles, values, weighed.raster, values > self.eager + SURE)
         rows = [kept[k] for k in chosen if k < len(kept)]
         return tuple(
             self._found(candidates, int(row), float(odds[row]), weighed.agreed[row], weighed.prints)
