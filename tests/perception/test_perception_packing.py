@@ -70,7 +70,7 @@ def test_turned_rectangles_overlap_as_they_lie() -> None:
 
 
 DEEPER = 0.2
-STEP = 0.02
+STEP = 0.01
 
 
 def raster(depths: dict[tuple[int, int], float]) -> Raster:
@@ -81,7 +81,7 @@ def raster(depths: dict[tuple[int, int], float]) -> Raster:
         depth[y, x] = seen
     depth = depth.repeat(fine, axis=0).repeat(fine, axis=1)
     colour = np.zeros((*depth.shape, 3), dtype=np.uint8)
-    # The middle of the first pixel is the frame's origin: half a pixel is within what may overlap.
+    # The middle of the first pixel is the origin: half a pixel must be less than the rim of a face.
     return Raster(Facing.TOP, Pose((0.0, 0.0, 0.0)), STEP, colour, depth, np.isfinite(depth))
 
 

@@ -10,17 +10,18 @@ from scipy.sparse import csr_array
 
 from depal.geometry import loop_kernel
 from depal.perception.faces import Raster, Rectangle
+from depal.perception.rasters.taken import DEEP, RIM
 
 Floats = npt.NDArray[np.float64]
 Flags = npt.NDArray[np.bool_]
 
-OVERLAP = 0.014
+OVERLAP = 2 * RIM
 """Rectangles may reach so far into each other [m]."""
 
 GRID = 0.015
 """Overlap is looked for at points so far apart [m]."""
 
-HIDES = 0.03
+HIDES = DEEP
 """What is seen so far before a rectangle hides it there [m]."""
 
 NODES = 200
