@@ -8,10 +8,14 @@ siblings that differ in words, amount or colour, as if these were the products t
 
 import argparse
 from collections.abc import Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from functools import partial
 from pathlib import Path
 
+import cv2
 import numpy as np
 import numpy.typing as npt
+from rich.progress import track
 
 from depal.cell.files import shipped_cell
 from depal.domain import Product
@@ -61,13 +65,14 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--scenes", type=int, default=180)
     parser.add_argument("--severity", type=Severity, default=Severity.NORMAL)
+    parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--examples", type=Path, help="kept there; read where they are already")
     chosen = parser.parse_args()
     if chosen.examples is not None and chosen.examples.exists():
         kept = np.load(chosen.examples)
         inputs, true, group = kept["inputs"], kept["true"], kept["group"]
     else:
-        inputs, true, group = examples(chosen.scenes, chosen.severity)
+        inputs, true, group = examples(chosen.scenes, chosen.severity, chosen.workers)
         if chosen.examples is not None:
             np.savez(chosen.examples, inputs=inputs, true=true, group=group)
     odds = np.zeros(len(true))
@@ -84,15 +89,24 @@ def main() -> None:
     print(f"{true.sum()} faces, {(~true).sum()} siblings; believed from {limit:.2f} on")
 
 
-def examples(scenes: int, severity: Severity) -> tuple[Floats, Flags, npt.NDArray[np.int64]]:
+def examples(
+    scenes: int, severity: Severity, workers: int
+) -> tuple[Floats, Flags, npt.NDArray[np.int64]]:
     """Numbers, whether they are of the face's own print, and the scene, of many faces."""
     rows, own, groups = list[Floats](), list[bool](), list[int]()
-    for number in range(scenes):
-        for numbers, true in samples(FIRST + number, severity):
-            rows.append(numbers)
-            own.append(true)
-            groups.append(number)
+    with ProcessPoolExecutor(workers) as pool:
+        of_scenes = pool.map(partial(of_scene, severity), range(FIRST, FIRST + scenes))
+        for number, found in enumerate(track(of_scenes, "Scenes", scenes)):
+            rows += [numbers for numbers, _ in found]
+            own += [true for _, true in found]
+            groups += [number] * len(found)
     return np.array(rows), np.array(own), np.array(groups)
+
+
+def of_scene(severity: Severity, seed: int) -> list[tuple[Floats, bool]]:
+    """What one scene shows: all of it, in a process of its own."""
+    cv2.setNumThreads(1)
+    return list(samples(seed, severity))
 
 
 def samples(seed: int, severity: Severity) -> Iterator[tuple[Floats, bool]]:

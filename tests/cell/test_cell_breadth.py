@@ -69,6 +69,18 @@ def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_coun
     assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
 
 
+@given(sizes, st.floats(-3, 3))
+def test_what_has_a_products_size_by_a_guess_reaches_as_far(size: Vector3, yaw: float) -> None:
+    """An edge was not seen: three small boxes may be one that is larger (dev-024)."""
+    box = Detection(BoxId("b"), OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), size))
+    guessed, seen = (
+        as_broad_as_it_may_be(box, note(size), unsized=is_so) for is_so in (True, False)
+    )
+    assert min(np.subtract(guessed.size, size)[:2]) >= 2 * ALONG
+    assert (np.array(guessed.size) >= seen.size).all()
+    assert guessed.size[2] == seen.size[2]
+
+
 @given(st.floats(0.1, 0.2), st.floats(0.26, 0.32), st.floats(0.4, 0.5))
 def test_what_would_have_to_lie_on_its_side_has_the_size_of_no_product(
     low: float, middle: float, high: float

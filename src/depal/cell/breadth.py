@@ -59,17 +59,21 @@ def named_astray(box: OrientedBox, pallet: Pose, *, tried: bool = False) -> Vect
     return max(skew[0], (longer - a) / 2), max(skew[1], (longer - b) / 2), 0.0
 
 
-def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
+def as_broad_as_it_may_be(
+    box: Perceived, delivery: Delivery, *, unsized: bool = False
+) -> OrientedBox:
     """The room that a box may take beside others.
 
     Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
     was seen wrongly nobody knows. What has the size of none is no one box, and reaches as far as
     what is seen beside and above it counts as its own; so does, upward, what has the size of one
-    but roughly: its edges were seen wrongly. A name tells.
+    but roughly: its edges were seen wrongly. What has an edge that nobody saw has a product's size
+    by that guess alone: it is as broad as what has none. A name tells.
 
     Args:
         box: upright.
         delivery: what it can be.
+        unsized: whether an edge of it is a guess.
     """
     shape = box.shape
     if isinstance(box, Recognition):
@@ -84,6 +88,8 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
                 most, nearest = np.maximum(most, way), min(nearest, off)
     if delivery.lines and np.isinf(nearest):  # of none that stands upright, as boxes do
         most += ALONG
+    elif delivery.lines and unsized:
+        most = np.maximum(most, size + ALONG)
     most[2] = size[2] + (ALONG if delivery.lines and nearest > ALIKE else 0.0)
     width, depth = (2 * (most + SIDEWAYS) - size)[:2].tolist()
     x, y, z = shape.centre
@@ -91,15 +97,16 @@ def as_broad_as_it_may_be(box: Perceived, delivery: Delivery) -> OrientedBox:
     return OrientedBox(pose, (width, depth, float(most[2])))
 
 
-def room_beside(box: Perceived, delivery: Delivery) -> OrientedBox:
+def room_beside(box: Perceived, delivery: Delivery, *, unsized: bool = False) -> OrientedBox:
     """The room around a standing box that a held one keeps out of: what it may take, and more.
 
     Args:
         box: upright.
         delivery: what it can be.
+        unsized: whether an edge of it is a guess.
     """
     if isinstance(box, Recognition):
         return box.shape
-    shape = as_broad_as_it_may_be(box, delivery)
+    shape = as_broad_as_it_may_be(box, delivery, unsized=unsized)
     a, b, c = shape.size
     return OrientedBox(shape.pose, (a + 2 * BESIDE, b + 2 * BESIDE, c))

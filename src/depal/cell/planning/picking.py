@@ -100,7 +100,9 @@ class Picking:
             return None
 
         def shape_of(other: Perceived) -> OrientedBox:
-            return other.shape if other.id == box.id else as_broad_as_it_may_be(other, delivery)
+            if other.id == box.id:
+                return other.shape
+            return as_broad_as_it_may_be(other, delivery, unsized=other.id in pile.unsized)
 
         return self._promises.scene(pile, zones=zones, shape_of=shape_of)
 

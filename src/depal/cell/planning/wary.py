@@ -28,6 +28,6 @@ def scenes_around(load: Load, work: Workplace, promises: Promises) -> tuple[Scen
         return (near,)
 
     def shape_of(box: Perceived) -> OrientedBox:
-        return room_beside(box, work.delivery)
+        return room_beside(box, work.delivery, unsized=box.id in pile.unsized)
 
     return promises.scene(pile, load.box, zones, shape_of), near
