@@ -14,9 +14,9 @@ from depal.perception.faces import Facing, Rectangle
 from depal.perception.pictures import side_size
 from depal.perception.recognition import gallery_of, patch_of
 from depal.perception.recognition.agreement import agreement, cosine_of
-from depal.perception.recognition.details import SCALES, found_again
+from depal.perception.recognition.details import SCALES, found_again, percentiles
 from depal.perception.recognition.features import Features, features_of
-from depal.perception.recognition.kernels import normal_equations
+from depal.perception.recognition.kernels import normal_equations, solved
 from depal.perception.recognition.labels import label_ends, without_label
 from depal.perception.recognition.rectifying import rectified
 from depal.perception.recognition.registration import Motion, brought_back, registered
@@ -59,7 +59,7 @@ def test_the_step_of_the_registration_is_the_slope_of_its_error(index: int) -> N
     seen = printed[3:43, 4:52] + np.float32(0.01)
     ones, inner = np.ones(printed.shape[:2], np.float32), np.ones(seen.shape[:2], np.float32)
     base = np.array([0.31, -0.22, 0.012, 0.004, 0, 0, 0, 1e6, 1], dtype=np.float64)
-    room, normal, right = np.zeros((3, 5)), np.zeros((7, 7)), np.zeros(7)
+    room, normal, right = np.zeros((3, 3)), np.zeros((7, 7)), np.zeros(7)
 
     def half_square(state: np.ndarray) -> float:
         motion = Motion(state[0], state[1], state[2], state[3])
@@ -73,6 +73,25 @@ def test_the_step_of_the_registration_is_the_slope_of_its_error(index: int) -> N
     step[index] = (1e-3, 1e-3, 2e-5, 2e-5)[index]
     slope = (half_square(base + step) - half_square(base - step)) / (2 * step[index])
     assert -right[index] == pytest.approx(slope, rel=0.05, abs=0.02 * abs(right[:4]).max())
+
+
+@given(st.integers(1, 9), st.integers(0, 2**32 - 1))
+def test_the_equations_of_a_step_are_solved_as_numpy_solves_them(n: int, seed: int) -> None:
+    """Symmetric and positive ones."""
+    random = np.random.default_rng(seed)
+    root, right = random.normal(size=(n, n)), random.normal(size=n)
+    matrix = root @ root.T + 0.1 * np.eye(n)
+    found = right.copy()
+    solved(matrix, found, np.zeros((n, n)))
+    np.testing.assert_allclose(found, np.linalg.solve(matrix, right), rtol=1e-6, atol=1e-8)
+
+
+@given(st.lists(st.floats(-9, 9, width=32), min_size=1), st.lists(st.floats(0, 100), min_size=1))
+def test_percentiles_are_those_of_numpy(values: list[float], of: list[float]) -> None:
+    """Of any number of values."""
+    few = np.array(values, np.float32)
+    expected = np.percentile(few.astype(float), of)
+    np.testing.assert_allclose(percentiles(few, of), expected, rtol=1e-9, atol=1e-12)
 
 
 def inverse_laid(printed: Features, motion: Motion, shape: tuple[int, int]) -> np.ndarray:

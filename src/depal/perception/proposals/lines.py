@@ -46,7 +46,10 @@ WIDEST = 1 << 14
 """No raster has so many pixels along an edge."""
 
 KEPT = 3_500
-"""So many rectangles of one direction go on to the score."""
+"""So many rectangles of one direction go on to the score at the most."""
+
+DENSE, FEWEST = 10_000, 1_000
+"""And so many for each square metre in which faces are looked for, but so many in any case."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,8 +89,16 @@ def between_lines(
     wide, high = (pixels[:, 2:] - pixels[:, :2]).T
     pixels = _different(pixels[(wide > TINY) & (high > TINY)])
     value = _rough(pixels, rows, columns)
-    pixels = pixels[np.argsort(-value, kind="stable")[:KEPT]]
+    kept = round(np.clip(DENSE * _open(seams, here), FEWEST, KEPT))
+    pixels = pixels[np.argsort(-value, kind="stable")[:kept]]
     return Rectangles(seams, pixels, measured(seams, pixels, (rows, columns), sizes))
+
+
+def _open(seams: Seams, taken: Taken | None) -> float:
+    """In how much of a raster faces are looked for [m^2]."""
+    known = np.isfinite(seams.depth)
+    free = known if taken is None else known & ~taken.places
+    return float(np.count_nonzero(free)) * seams.step**2
 
 
 def running(seams: Seams) -> tuple[Floats, Floats]:

@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from depal.perception.recognition.features import Features
-from depal.perception.recognition.kernels import normal_equations
+from depal.perception.recognition.kernels import steps_of_laying
 
 Floats = npt.NDArray[np.float64]
 
@@ -26,6 +26,9 @@ REACH = 0.016
 
 STEPS = 9
 """Gauss-Newton steps at the most."""
+
+ROUGH = 4
+"""The first of them look at every second pixel of those that the others look at."""
 
 STILL = (0.02, 2e-4)
 """Steps end when the shift [pixel] and the turn [rad] change by less."""
@@ -109,20 +112,13 @@ def registered(
     step = seen.step
     state = np.array([start.x / step, start.y / step, start.turn, start.scale, 0, 0, 0, 0, 0])
     state[7:] = OUTLIER, every
-    motion = state[:7]
     spread = np.array([PRIOR[0] / step, PRIOR[1] / step, PRIOR[2], PRIOR[3], 1.0, 1.0, 1.0])
-    prior = np.diag(NOISE**2 / spread**2)
-    room, normal, right = np.zeros((3, 5)), np.zeros((7, 7)), np.zeros(7)
+    room, normal, right = np.zeros((7, 7)), np.zeros((7, 7)), np.zeros(7)
     views = (seen.values, seen.weights, printed.values, printed.weights)
-    for _ in range(steps):
-        normal_equations(*views, state, room, normal, right)
-        normal += prior
-        change = np.linalg.solve(normal, right - prior @ motion)
-        motion += change
-        if np.abs(change[:2]).max() < STILL[0] and abs(change[2]) < STILL[1]:
-            break
+    ends = (ROUGH, steps, *STILL)
+    steps_of_laying(*views, NOISE**2 / spread**2, ends, state, room, normal, right)
     sx, sy, st = (NOISE * np.sqrt(np.diag(np.linalg.inv(normal))[:3])).tolist()
-    x, y, turn, scale = motion[:4].tolist()
+    x, y, turn, scale = state[:4].tolist()
     return Motion(x * step, y * step, turn, scale, (sx * step, sy * step, st))
 
 
