@@ -3,7 +3,7 @@
 Faces of simulated scenes are compared with their own product's picture and with pictures of
 siblings that differ in words, amount or colour, as if these were the products that are known.
 
-    python scripts/train_prints.py --scenes 600 --workers 2 --severity normal
+    python scripts/train_prints.py --scenes 180 --severity normal
 """
 
 import argparse
@@ -27,7 +27,7 @@ from depal.perception.locating import located
 from depal.perception.recognition.identity import evidence, laid_over_face
 from depal.perception.recognition.prints import Gallery, print_of
 from depal.perception.recognition.rectifying import rectified
-from depal.perception.recognition.trust import FARTHEST, Trust, faint
+from depal.perception.recognition.trust import FARTHEST, Trust
 from depal.ports import Frame
 from depal.simulation.imaging.photographs import Studio, photographed
 from depal.simulation.scenes import Kind, Severity, random_delivery, scene
@@ -50,21 +50,20 @@ SIBLINGS = 3
 COSTLY = 3
 """An accepted sibling weighs as much as so many unnamed boxes."""
 
-ACCEPTED, FAINT_ACCEPTED = 0.007, 0.0035
-"""So many of the siblings may be accepted, and of those that are compared with a faint print: few
-names are lost by strictness there, for which other prints may be believed more readily."""
+ACCEPTED = 0.0075
+"""So many of the siblings may be accepted."""
 
 PARTS = 4
 """What it is worth is measured on one of so many parts, trained on the others."""
 
 NETWORKS = 6
-HOW = Schooling(hidden=32, steps=4000, batch=1024, rate=5e-3, decay=5e-4)
+HOW = Schooling(hidden=24, steps=2000, batch=1024, rate=5e-3, decay=5e-4)
 
 
 def main() -> None:
     """Trains, says how good it is on the scenes left out, and writes the file."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
-    parser.add_argument("--scenes", type=int, default=600)
+    parser.add_argument("--scenes", type=int, default=180)
     parser.add_argument("--severity", type=Severity, default=Severity.NORMAL)
     parser.add_argument("--workers", type=int, default=1)
     parser.add_argument("--examples", type=Path, help="kept there; read where they are already")
@@ -83,14 +82,8 @@ def main() -> None:
     for share in (0.002, 0.005, 0.01, 0.02, 0.05):
         at = np.quantile(odds[~true], 1 - share)
         print(f"{share:.1%} of siblings accepted: {(odds[true] > at).mean():.1%} named, {at:.2f}")
-    pale = np.array([faint(numbers) for numbers in inputs])
-    limit, fainter = (
-        float(np.quantile(odds[~true & these], 1 - share))
-        for these, share in ((~pale, ACCEPTED), (pale, FAINT_ACCEPTED))
-    )
-    for these, least in ((~pale, limit), (pale, fainter)):
-        print(f"from {least:.2f} on {(odds[true & these] > least).mean():.1%} of these are named")
-    whole = fitted(inputs, true, limit, max(fainter - limit, 0.0))
+    limit = float(np.quantile(odds[~true], 1 - ACCEPTED))
+    whole = fitted(inputs, true, limit)
     file = Path(__file__).parents[1] / "src/depal/perception/recognition/trust.json"
     file.write_text(whole.as_text(), "utf-8")
     print(f"{true.sum()} faces, {(~true).sum()} siblings; believed from {limit:.2f} on")
@@ -180,7 +173,7 @@ def disturbed(
     return pose @ off, (width, height)
 
 
-def fitted(inputs: Floats, true: Flags, limit: float = 0.0, handicap: float = 0.0) -> Trust:
+def fitted(inputs: Floats, true: Flags, limit: float = 0.0) -> Trust:
     """Networks that begin differently and are trained alike."""
     middle, scale = inputs.mean(axis=0), inputs.std(axis=0) + 1e-6
     scaled = np.clip((inputs - middle) / scale, -FARTHEST, FARTHEST)
@@ -192,7 +185,7 @@ def fitted(inputs: Floats, true: Flags, limit: float = 0.0, handicap: float = 0.
         weights = net.first[:-1] / net.scale[:, None]
         first.append(np.vstack((weights, net.first[-1] - net.middle @ weights)))
         second.append(net.second)
-    return Trust(middle, scale, np.array(first), np.array(second), limit, handicap)
+    return Trust(middle, scale, np.array(first), np.array(second), limit)
 
 
 def odds_of(trust: Trust, inputs: Floats) -> Floats:

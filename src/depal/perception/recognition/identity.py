@@ -20,7 +20,7 @@ from depal.perception.recognition.registration import (
     registered,
 )
 from depal.perception.recognition.tones import tones
-from depal.perception.recognition.trust import shipped_trust, told_contrast
+from depal.perception.recognition.trust import shipped_trust
 
 Floats = npt.NDArray[np.float64]
 
@@ -250,7 +250,7 @@ def evidence(fit: Fit) -> Floats:
         printed.label_ends,
         *printed.size,
         float(printed.facing is Facing.TOP),
-        told_contrast(printed.contrast),
+        math.log(printed.contrast + 1e-4),
         math.log(printed.small[-1].sum() + 1.0),
     )
     told = tones(fit.seen.thinned(COARSE), level.thinned(COARSE), printed.areas)

@@ -1,7 +1,6 @@
 """Whether a face bears this very print, and not an unknown sibling's: odds from what was read."""
 
 import json
-import math
 from dataclasses import dataclass
 from functools import lru_cache
 from importlib import resources
@@ -23,9 +22,6 @@ NAMES = (
 )
 """What the odds are made from."""
 
-FAINT = 0.0033
-"""A print whose squared contrast over its area is less says little: words on a kraft box [m^2]."""
-
 STEEPEST = 12.0
 """Odds are never told with more certainty than this [logarithm]."""
 
@@ -43,8 +39,6 @@ class Trust:
         first: (n, d + 1, k) weights of the hidden layers, the last row their offsets.
         second: (n, k + 1) weights of the outputs, the last one their offset.
         limit: odds from which on a name is believed.
-        handicap: so much the odds of faint prints count less: a sibling's face differs less from
-            theirs, so they are believed less readily than others.
     """
 
     middle: Floats
@@ -52,18 +46,13 @@ class Trust:
     first: Floats
     second: Floats
     limit: float
-    handicap: float = 0.0
 
     def log_odds(self, numbers: Floats) -> float:
-        """That a face is the print's and not a sibling's; (d,) numbers of `NAMES`.
-
-        Less the handicap, where the print is faint.
-        """
+        """That a face is the print's and not a sibling's; (d,) numbers of `NAMES`."""
         inputs = np.clip((numbers - self.middle) / self.scale, -FARTHEST, FARTHEST)
         hidden = np.tanh(inputs @ self.first[:, :-1] + self.first[:, -1])
         odds = (hidden * self.second[:, :-1]).sum(axis=1) + self.second[:, -1]
-        handicap = self.handicap if faint(numbers) else 0.0
-        return float(np.clip(odds.mean(), -STEEPEST, STEEPEST)) - handicap
+        return float(np.clip(odds.mean(), -STEEPEST, STEEPEST))
 
     def as_text(self) -> str:
         """As it is kept in a file."""
@@ -71,8 +60,7 @@ class Trust:
             name: np.round(getattr(self, name), 4).tolist()
             for name in ("middle", "scale", "first", "second")
         }
-        told = {"limit": round(self.limit, 3), "handicap": round(self.handicap, 3)}
-        return json.dumps({"names": list(NAMES)} | told | arrays) + "\n"
+        return json.dumps({"names": list(NAMES), "limit": round(self.limit, 3)} | arrays) + "\n"
 
     @classmethod
     def from_text(cls, text: str) -> Self:
@@ -87,17 +75,7 @@ class Trust:
         middle, scale, first, second = (
             np.array(fields[name]) for name in ("middle", "scale", "first", "second")
         )
-        return cls(middle, scale, first, second, fields["limit"], fields["handicap"])
-
-
-def faint(numbers: Floats) -> bool:
-    """Whether (d,) numbers of `NAMES` are of a print that says little."""
-    return bool(numbers[NAMES.index("contrast")] < told_contrast(FAINT))
-
-
-def told_contrast(contrast: float) -> float:
-    """A print's squared contrast over its area [m^2], as the numbers tell it."""
-    return math.log(contrast + 1e-4)
+        return cls(middle, scale, first, second, fields["limit"])
 
 
 @lru_cache(maxsize=1)
