@@ -7,6 +7,7 @@ from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
 from depal.domain import Delivery, Perceived, Recognition
 from depal.geometry import OrientedBox, Pose, Vector3
+from depal.motion.grasping import EXACT
 
 SIDEWAYS = 0.008
 """A box that no print has named is seen this far off to the side [m]."""
@@ -26,14 +27,15 @@ BESIDE = 0.03
 edges lie elsewhere [m]."""
 
 
-def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
+def astray(beyond: Vector3, *, unsized: bool = False, beside: Vector3 = EXACT) -> Vector3:
     """How much farther out a box may be than it seems: no less than looks err [m].
 
     Args:
         beyond: how much longer it may be along its own axes, at either end [m].
         unsized: whether an edge of it is a guess: then so is where it ends below.
+        beside: how far the surface goes on beside it, at either end [m].
     """
-    a, b, c = beyond
+    a, b, c = np.maximum(beyond, beside).tolist()
     return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
 
 

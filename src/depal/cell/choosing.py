@@ -1,7 +1,7 @@
 """Which box next, in the cell: Algorithm 1 over the pile, with grasps that the arm can reach."""
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from depal.cell.accessing import ways_in_cell
@@ -15,6 +15,7 @@ from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.surroundings import STRANGE
 from depal.cell.seeking import searches
 from depal.cell.standing import Firmness, left_by, standing_pile
+from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Detection, Perceived, Recognition, Request
 from depal.geometry import OrientedBox
@@ -159,9 +160,11 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
 
 
 def _why_later_unnamed(
-    work: Workplace, box: Perceived, strange: Iterable[OrientedBox]
+    work: Workplace, box: Perceived, strange: Collection[OrientedBox]
 ) -> str | None:
     """The same of a box of which no print tells how large it is."""
+    if work.pile.remembered and any(goes_on_beside(box.shape, strange)):
+        return STRADDLES
     beyond = beyond_seen(work.delivery, box.shape.size)
     if work.pile.remembered and may_reach_under(box.shape, strange, beyond):
         return UNDER
@@ -206,8 +209,9 @@ UNSEEN, ODD = "the last look did not show it", "no product of the note has its s
 GAVE_UP = "no free way"
 """How a motion's reason begins where the search for it has come to its limit."""
 
-LADEN, UNDER, HALF_SEEN, GUESSED, FRESH, TRIED = (
+LADEN, STRADDLES, UNDER, HALF_SEEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",
+    "its surface goes on beside it, and no box explains that",
     "it may go on below something higher that nobody knows",
     "what stands before it may hide a part of it",
     "one of its edges is a guess",

@@ -106,6 +106,7 @@ class Held:
         size: of the box along its own axes [m].
         mass: as felt at the flange [kg].
         beyond: how much longer the box may be along its axes, at either end [m].
+        beside: how far it may lie beside where it was seen, along them [m].
     """
 
     box: BoxId
@@ -113,6 +114,7 @@ class Held:
     size: Vector3
     mass: float
     beyond: Vector3 = (0.0, 0.0, 0.0)
+    beside: Vector3 = (0.0, 0.0, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.rules import TAKING, Rules, rules_on
+from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Detection, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox, Vector3
@@ -118,7 +119,9 @@ class Picking:
             pallet, tried = work.layout.pallet.cell_from_pallet, bool(work.tries.get(box.id))
             return named_astray(box.shape, pallet, tried=tried)
         return astray(
-            beyond_seen(work.delivery, box.shape.size), unsized=box.id in work.pile.unsized
+            beyond_seen(work.delivery, box.shape.size),
+            unsized=box.id in work.pile.unsized,
+            beside=goes_on_beside(box.shape, work.pile.obstacles),
         )
 
     def _wide(self, box: Perceived) -> Vector3:
