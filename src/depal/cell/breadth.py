@@ -66,11 +66,11 @@ def as_broad_as_it_may_be(
 ) -> OrientedBox:
     """The room that a box may take beside others.
 
-    Of products of nearly one size the wrong one is soon believed, and at which of its ends an edge
-    was seen wrongly nobody knows. What has the size of none is no one box, and reaches as far as
-    what is seen beside and above it counts as its own; so does, upward, what has the size of one
-    but roughly: its edges were seen wrongly. What has an edge that nobody saw has a product's size
-    by that guess alone: it is as broad as what has none. A name tells.
+    Of products of nearly one size the wrong one is soon believed, a lower one too, and at which of
+    its ends an edge was seen wrongly nobody knows. What has the size of none is no one box, and
+    reaches as far as what is seen beside and above it counts as its own; so does, upward, what has
+    the size of one but roughly: its edges were seen wrongly. What has an edge that nobody saw has a
+    product's size by that guess alone: it is as broad as what has none. A name tells.
 
     Args:
         box: upright.
@@ -91,8 +91,9 @@ def as_broad_as_it_may_be(
     if delivery.lines and np.isinf(nearest):  # of none that stands upright, as boxes do
         most += ALONG
     elif delivery.lines and unsized:
-        most = np.maximum(most, size + ALONG)
-    most[2] = size[2] + (ALONG if delivery.lines and nearest > ALIKE else 0.0)
+        most[:2] = np.maximum(most[:2], size[:2] + ALONG)
+    rough = ALONG if delivery.lines and nearest > ALIKE else 0.0
+    most[2] = max(float(most[2]), float(size[2]) + rough)
     width, depth = (2 * (most + SIDEWAYS) - size)[:2].tolist()
     x, y, z = shape.centre
     pose = Pose((x, y, z + float(most[2] - size[2]) / 2), shape.pose.rotation)
