@@ -15,8 +15,6 @@ CELL = shipped_cell("default")
 SIZE = (0.3, 0.4, 0.3)
 DECK = CELL.pallet.cell_from_pallet.translation[2]
 
-farther_out = st.floats(0.045, 0.055)
-
 
 def box(x: float, y: float, size: tuple[float, float, float] = SIZE) -> OrientedBox:
     """Standing on the deck."""
@@ -116,20 +114,3 @@ def test_all_of_a_top_that_nothing_explains_lies_in_obstacles(
         below = corner - (0.0, 0.0, 0.01)
         off = np.maximum(np.maximum(lower - below, below - upper), 0.0).max(axis=1).min()
         assert off < 0.008
-
-
-@given(st.floats(1.5, 1.75), st.floats(-0.2, 0.1), st.sampled_from((-1, 1)), farther_out)
-def test_a_side_that_lies_farther_out_than_it_seems_is_an_obstacle(
-    x: float, y: float, side: int, farther: float
-) -> None:
-    """The strip is a few pixels wide: where three small boxes are seen for one, a tool hits it.
-
-    Solids are no farther from each other than a tool is wide.
-    """
-    there = box(x, y, (0.3, 0.3, 0.25))
-    seen = box(x, y - side * farther / 2, (0.3, 0.3 - farther, 0.25))
-    low = box(x, y + side * 0.3, (0.3, 0.29, 0.2))
-    found = unexplained([from_above([there, low], 0.002)], [seen, low], CELL.pallet)
-    strip = np.array((x, y + side * (0.15 - 0.012), there.centre[2] + 0.11))
-    off = [np.abs(strip - solid.centre) - np.array(solid.size) / 2 for solid in found]
-    assert min(each.max() for each in off) < 0.012

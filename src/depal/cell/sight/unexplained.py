@@ -36,10 +36,6 @@ DEPTHS = (0.0, -ALONG, ALONG, -ALONG / 2, ALONG / 2)
 PATCH = 4
 """A patch is so many of the thinned pixels high and wide at least."""
 
-LINE = 8
-"""Or a line along rows or columns of so many: of a box whose edge lies farther out than it seems a
-strip is seen that is no wider than a pixel."""
-
 HOLE = 3
 """Holes in a patch that are narrower than so many of the thinned pixels are none."""
 
@@ -126,9 +122,7 @@ def _patches(depth: Narrow, strange: Bytes) -> Flags:
     """
     even = strange & _even(depth)
     whole = cv2.morphologyEx(even, cv2.MORPH_CLOSE, np.ones((HOLE, HOLE), np.uint8))
-    patch = np.zeros(even.shape, dtype=np.bool_)
-    for size in ((PATCH, PATCH), (1, LINE), (LINE, 1)):
-        patch |= np.asarray(cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones(size, np.uint8))) > 0
+    patch = cv2.morphologyEx(whole, cv2.MORPH_OPEN, np.ones((PATCH, PATCH), np.uint8)) > 0
     window = np.ones((3, 3), np.uint8)
     patch = np.asarray(patch & (even > 0))
     for _ in range(GROWN):
