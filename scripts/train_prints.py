@@ -65,9 +65,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else "")
     parser.add_argument("--scenes", type=int, default=180)
     parser.add_argument("--severity", type=Severity, default=Severity.NORMAL)
-    parser.add_argument("--workers", type=int, default=1)
+    parser.add_argument("--workers", type=int, default=1, help="processes that look at scenes")
     parser.add_argument("--examples", type=Path, help="kept there; read where they are already")
     chosen = parser.parse_args()
+    for option, number, least in (("scenes", chosen.scenes, PARTS), ("workers", chosen.workers, 1)):
+        if number < least:
+            parser.error(f"--{option} is {number}; {least} or more are needed")
     if chosen.examples is not None and chosen.examples.exists():
         kept = np.load(chosen.examples)
         inputs, true, group = kept["inputs"], kept["true"], kept["group"]
