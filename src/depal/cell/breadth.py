@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from depal.cell.identity import ALIKE as EITHER_WAY
 from depal.cell.identity import SIZE_SPARE, plausible
 from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
@@ -66,8 +67,8 @@ def as_broad_as_it_may_be(
 ) -> OrientedBox:
     """The room that a box may take beside others.
 
-    Of products of nearly one size the wrong one is soon believed, a lower one too, and at which of
-    its ends an edge was seen wrongly nobody knows. What has the size of none is no one box, and
+    Of products of nearly one size the wrong one is soon believed, a lower one too, a nearly square
+    one turned the other way, and at which of its ends an edge was seen wrongly nobody knows. What has the size of none is no one box, and
     reaches as far as what is seen beside and above it counts as its own; so does, upward, what has
     the size of one but roughly: its edges were seen wrongly. What has an edge that nobody saw has a
     product's size by that guess alone: it is as broad as what has none. A name tells.
@@ -84,10 +85,13 @@ def as_broad_as_it_may_be(
     most, nearest = size.copy(), np.inf
     for product in plausible(delivery, shape.size):
         along, across, high = product.size
-        for way in ((along, across, high), (across, along, high)):
-            off = float(np.abs(np.subtract(way, size)).max())
-            if off <= SIZE_SPARE:
-                most, nearest = np.maximum(most, way), min(nearest, off)
+        ways = np.array(((along, across, high), (across, along, high)))
+        offs = np.abs(ways - size).max(axis=1)
+        if offs.min() > SIZE_SPARE:
+            continue
+        nearest = min(nearest, float(offs.min()))
+        either = abs(along - across) < EITHER_WAY
+        most = np.maximum(most, ways[either | (offs <= SIZE_SPARE)].max(axis=0))
     if delivery.lines and np.isinf(nearest):  # of none that stands upright, as boxes do
         most += ALONG
     elif delivery.lines and unsized:
@@ -100,16 +104,20 @@ def as_broad_as_it_may_be(
     return OrientedBox(pose, (width, depth, float(most[2])))
 
 
-def room_beside(box: Perceived, delivery: Delivery, *, unsized: bool = False) -> OrientedBox:
+def room_beside(
+    box: Perceived, delivery: Delivery, *, unsized: bool = False, beside: Vector3 = EXACT
+) -> OrientedBox:
     """The room around a standing box that a held one keeps out of: what it may take, and more.
 
     Args:
         box: upright.
         delivery: what it can be.
         unsized: whether an edge of it is a guess.
+        beside: how far the surface goes on beside it, at either end of its axes [m].
     """
     if isinstance(box, Recognition):
         return box.shape
     shape = as_broad_as_it_may_be(box, delivery, unsized=unsized)
     a, b, c = shape.size
-    return OrientedBox(shape.pose, (a + 2 * BESIDE, b + 2 * BESIDE, c))
+    along, across = (max(far, BESIDE) for far in beside[:2])
+    return OrientedBox(shape.pose, (a + 2 * along, b + 2 * across, c))

@@ -16,6 +16,7 @@ from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import PickPlan
 from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
+from depal.cell.planning.wary import with_room
 from depal.cell.rules import TAKING, Rules, rules_on
 from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Workplace
@@ -84,15 +85,24 @@ class Picking:
         stands = self._planner.why_no_start(start, scene) if rules.zones else ""
         if stands:
             return stands
-        reason = ""
-        for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
-            doubts, name = Doubts(room, wary), str(box.id)
+        reason, name = "", str(box.id)
+        for doubts in self._doubts(box, wary, rules.zones):
             found = self._planner.pick(start, box.shape, ways, scene, name, doubts, rules.tilt)
             if not isinstance(found, NoMotion):
-                beyond = EXACT if room == EXACT else self._beyond(box)
+                beyond = EXACT if doubts.beyond == EXACT else self._beyond(box)
                 return self._timed(box, mass, found, scene, rules, beyond)
             reason = str(found)
         return rules.after(reason)
+
+    def _doubts(
+        self, box: Perceived, wary: Scene | None, zones: AbstractSet[str]
+    ) -> Iterator[Doubts]:
+        """How much room a box is taken out with: less where no way out has as much."""
+        roomy = with_room(box.id, zones, self._work, self._promises)
+        if roomy is not None:
+            yield Doubts(self._wide(box), wary, roomy)
+        for room in dict.fromkeys((self._wide(box), self._beyond(box), EXACT)):
+            yield Doubts(room, wary)
 
     def _wary(self, box: Perceived, zones: AbstractSet[str]) -> Scene | None:
         """What the tool keeps clear of on its way to a box; None where that is what is seen."""

@@ -59,6 +59,7 @@ class _Job:
         scene: all that stands around, the box included.
         without: the same, the box left out.
         wary: what an empty hand keeps clear of: the same, or larger where errors are feared.
+        roomy: what the held box is clear of in the end: what stands around without it, or larger.
         beyond: how much longer it may be along its own axes, at either end [m].
     """
 
@@ -68,6 +69,7 @@ class _Job:
     scene: Scene
     without: Scene
     wary: Scene
+    roomy: Scene
     beyond: Vector3 = EXACT
 
 
@@ -97,8 +99,9 @@ def plan_pick(
         effort: for free space.
         doubts: what is not as it looks, maybe.
     """
-    around = doubts.wary or scene
-    job = _Job(reach, start, box, scene, scene.without(name), around, doubts.beyond)
+    around, without = doubts.wary or scene, scene.without(name)
+    roomy = doubts.roomy or without
+    job = _Job(reach, start, box, scene, without, around, roomy, doubts.beyond)
     reasons: list[str] = []
     kept: list[_Option] = []
     empty = {folded: reach.checker(around, OPEN, folded=folded) for folded in (False, True)}
@@ -135,7 +138,8 @@ def why_no_pick(
         name: of the box in the scene.
     """
     reasons: list[str] = []
-    job = _Job(reach, near, box, scene, scene.without(name), scene)
+    without = scene.without(name)
+    job = _Job(reach, near, box, scene, without, scene, without)
     for _ in _options(job, grasp, reasons, careful=False):
         return ""
     return str(NoMotion.because(reasons))
@@ -169,7 +173,7 @@ def _options(job: _Job, grasp: Grasp, reasons: list[str], *, careful: bool) -> I
     near = reach.checker(job.wary, CLOSE, folded=grasp.folded)
     empty = near.with_margins(OPEN)
     holding = reach.checker(job.without, CLOSE, grasp, box.size)
-    clear = reach.checker(job.without, OPEN, *swollen(grasp, box.size, job.beyond))
+    clear = reach.checker(job.roomy, OPEN, *swollen(grasp, box.size, job.beyond))
     for q in branches:
         if hit := near.why(q):
             reasons.append(hit)

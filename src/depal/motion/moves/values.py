@@ -64,10 +64,13 @@ class Doubts:
         beyond: how much longer the box may be along its own axes, at either end: it is taken
             straight on until whatever it may be is clear [m].
         wary: what an empty hand keeps clear of, the box as it is; None for what is seen.
+        roomy: what the held box is clear of where its way out of the pile ends, the box left out;
+            None for what is seen.
     """
 
     beyond: Vector3 = EXACT
     wary: Scene | None = None
+    roomy: Scene | None = None
 
 
 SURE = Doubts()
