@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.breadth import NAMED, SIDEWAYS, as_broad_as_it_may_be, astray, named_astray
+from depal.cell.identity import ALIKE as EITHER_WAY
 from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
 from depal.cell.workplace import Held, Workplace
@@ -80,6 +81,24 @@ def test_what_has_a_products_size_by_a_guess_reaches_as_far(size: Vector3, yaw: 
     assert min(np.subtract(guessed.size, size)[:2]) >= 2 * ALONG
     assert (np.array(guessed.size) >= seen.size).all()
     assert guessed.size[2] == seen.size[2]
+
+
+@given(edge, edge, st.floats(0.0, EITHER_WAY - 0.001), st.tuples(end, end))
+def test_a_nearly_square_box_lies_in_its_room_turned_either_way(
+    along: float, high: float, less: float, ends: tuple[int, int]
+) -> None:
+    """It is seen turned by a quarter; what is clearly longer than broad is not (dev-049)."""
+    size, pose = (along, along - less, high), Pose.from_yaw((1.8, 0.1, 0.5), 0.3)
+    seen = (along - less, along, high)
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, seen)), note(size))
+    assert (np.array(room.size[:2]) >= along + 2 * SIDEWAYS - 1e-9).all()
+    shift = [way * (a - b) / 2 for way, a, b in zip(ends, seen, size, strict=False)]
+    true = OrientedBox(pose @ Pose((shift[0], shift[1], 0.0)), size)
+    local = np.array([room.pose.inverse.apply(tuple(corner)) for corner in true.corners.tolist()])
+    assert (np.abs(local) <= np.array(room.size) / 2 + 1e-9).all()
+    long = (along + 0.2, along, high)
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, long)), note(long))
+    assert room.size[1] == pytest.approx(along + 2 * SIDEWAYS)
 
 
 @given(st.floats(0.1, 0.2), st.floats(0.26, 0.32), st.floats(0.4, 0.5))

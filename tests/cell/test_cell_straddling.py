@@ -9,7 +9,7 @@ from cells_at_work import STORED, Cell, Remembering, pile
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from depal.cell.straddling import BESIDE, FARTHER, HALF, LEVEL, MOST, goes_on_beside
+from depal.cell.straddling import BESIDE, FARTHER, HALF, LEVEL, MOST, STACKED, goes_on_beside
 from depal.cell.workplace import Held, Workplace
 from depal.geometry import OrientedBox, Pose, Vector3
 from depal.ports import View
@@ -57,6 +57,17 @@ def test_what_is_higher_or_lower_is_another_box(
     short = strip(axis, side, 0.0, reach, along=MOST - 0.01)
     assert not any(goes_on_beside(BOX, [short, short]))
     assert not any(goes_on_beside(BOX, [strip(axis, side, -0.1, FARTHER - 0.001)]))
+
+
+@given(axes, sides, near, far, st.floats(LEVEL + 0.001, STACKED - 0.001))
+def test_for_a_hand_that_passes_it_may_be_joined_with_something_higher(
+    axis: int, side: int, gap: float, reach: float, above: float
+) -> None:
+    """A box's own surface goes on, and where that ends is told as one with what is behind."""
+    found = [strip(axis, side, gap, reach, above=above)]
+    level = [strip(axis, side, gap, reach)]
+    assert goes_on_beside(BOX, found, above=STACKED) == pytest.approx(goes_on_beside(BOX, level))
+    assert goes_on_beside(BOX, found) == (0.0, 0.0, 0.0)
 
 
 @given(axes, sides, far, st.integers(2, 6))

@@ -6,17 +6,28 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from cells_at_work import STORED, Cell, Remembering, note, pile
+from cells_at_work import DECK, STORED, Cell, Remembering, note, pile
 from hypothesis import given
 from hypothesis import strategies as st
 
 from depal.cell.breadth import BESIDE, as_broad_as_it_may_be, room_beside
 from depal.cell.planning.planner import Planner
-from depal.cell.planning.plans import Load
-from depal.domain import BoxId, Detection, Gtin, Recognition
+from depal.cell.planning.plans import Load, PickPlan
+from depal.cell.planning.wary import with_room
+from depal.domain import (
+    EURO_PALLET,
+    BoxId,
+    Delivery,
+    DeliveryLine,
+    Detection,
+    Gtin,
+    Product,
+    Recognition,
+)
 from depal.geometry import OrientedBox, Pose
 from depal.motion.collision import Scene
-from depal.motion.moves import Berth, NoMotion, Put
+from depal.motion.moves import OPEN, Berth, NoMotion, Put
+from depal.ports import View
 
 edge = st.floats(0.1, 0.5)
 
@@ -32,6 +43,69 @@ def test_the_room_beside_a_box_is_all_that_it_may_be_and_a_hand_more(
     assert np.allclose(np.subtract(room.size, broad.size), (2 * BESIDE, 2 * BESIDE, 0.0))
     assert room.pose == broad.pose
     assert room_beside(named, note(1)) == shape
+
+
+@given(st.tuples(edge, edge, edge), st.tuples(*[st.floats(0.0, 0.2)] * 2))
+def test_where_the_surface_goes_on_beside_a_box_its_room_does_too(
+    size: tuple[float, float, float], far: tuple[float, float]
+) -> None:
+    """At either end: on which side the box is seen wrongly nobody knows (dev-021)."""
+    box = Detection(BoxId("b"), OrientedBox.upright((1.8, 0.1, 0.5), size))
+    room, plain = (
+        room_beside(box, note(1), beside=beside) for beside in ((*far, 0.0), (0.0, 0.0, 0.0))
+    )
+    more = [max(each - BESIDE, 0.0) for each in far]
+    assert np.allclose(np.subtract(room.size, plain.size), (*np.multiply(2, more), 0.0))
+
+
+def lifted_beside(*, unnamed: bool) -> tuple[Cell, PickPlan]:
+    """A low box with a name is taken from beside a higher one."""
+    cell = Cell(1)
+    low, seen, true = (0.29, 0.19, 0.18), (0.18, 0.25, 0.25), (0.21, 0.25, 0.27)
+    cell.work.delivery = Delivery(
+        "d",
+        EURO_PALLET,
+        tuple(
+            DeliveryLine(Product(Gtin(f"g{k}"), "g", size, 5.0), 1)
+            for k, size in enumerate((low, seen, true))
+        ),
+    )
+    box = Recognition(
+        BoxId("b1"), OrientedBox.upright((1.6, 0.0, DECK + low[2] / 2), low), Gtin("g0")
+    )
+    where = OrientedBox.upright((1.8, -0.22, DECK + seen[2] / 2), seen)
+    name = BoxId("b2")
+    beside = Detection(name, where) if unnamed else Recognition(name, where, Gtin("g1"))
+    cell.work.pile.see(View(0.0, (box, beside), remembered=True))
+    plan = cell.desk.picking.try_pick(box)
+    assert not isinstance(plan, str)
+    return cell, plan
+
+
+def test_a_box_is_lifted_clear_of_all_that_its_neighbour_may_be_before_it_goes_sideways() -> None:
+    """The neighbour is larger and higher than it looks; the way on starts clear of it (dev-049)."""
+    ends = []
+    for unnamed in (False, True):
+        cell, plan = lifted_beside(unnamed=unnamed)
+        scene = with_room(BoxId("b1"), frozenset(), cell.work, cell.desk.promises)
+        assert (scene is not None) is unnamed
+        end = plan.pick.out.path[-1]
+        if scene is not None:
+            hand = cell.desk.planner.mover.checker(scene, OPEN, plan.grasp, plan.box.shape.size)
+            assert hand.free(end)
+        ends.append(cell.desk.planner.mover.body.kinematics.flange(end).translation[2])
+    assert ends[1] > ends[0] + 0.015
+
+
+def test_where_no_way_out_is_clear_of_all_that_it_may_be_a_box_goes_near() -> None:
+    """It is taken all the same."""
+    *_, plain = lifted_beside(unnamed=True)
+    everything = OrientedBox.upright((1.6, 0.0, 1.0), (4.0, 4.0, 4.0))
+    shut = mock.Mock(return_value=Scene.of([], [("all", everything)]))
+    with mock.patch("depal.cell.planning.picking.with_room", shut):
+        *_, near = lifted_beside(unnamed=True)
+    *_, named = lifted_beside(unnamed=False)
+    assert len(near.pick.out.path) == len(named.pick.out.path) < len(plain.pick.out.path)
 
 
 def puts_of(unknown: list[int], *, shut: int) -> tuple[Cell, list[Scene]]:

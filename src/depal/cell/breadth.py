@@ -67,11 +67,12 @@ def as_broad_as_it_may_be(
 ) -> OrientedBox:
     """The room that a box may take beside others.
 
-    Of products of nearly one size the wrong one is soon believed, a lower one too, a nearly square
-    one turned the other way, and at which of its ends an edge was seen wrongly nobody knows. What has the size of none is no one box, and
-    reaches as far as what is seen beside and above it counts as its own; so does, upward, what has
-    the size of one but roughly: its edges were seen wrongly. What has an edge that nobody saw has a
-    product's size by that guess alone: it is as broad as what has none. A name tells.
+    Of products of nearly one size the wrong one is soon believed, a lower one too, a nearly
+    square one turned the other way, and at which of its ends an edge was seen wrongly nobody
+    knows. What has the size of none is no one box, and reaches as far as what is seen beside
+    and above it counts as its own; so does, upward, what has the size of one but roughly: its
+    edges were seen wrongly. What has an edge that nobody saw has a product's size by that guess
+    alone: it is as broad as what has none. A name tells.
 
     Args:
         box: upright.
