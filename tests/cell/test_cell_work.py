@@ -6,6 +6,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from unittest import mock
 
 import pytest
 from cells_at_work import (
@@ -25,6 +26,7 @@ from cells_at_work import (
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from depal.cell.planning.presenting import Presenting
 from depal.cell.primitives.feeling import STEPS
 from depal.cell.primitives.seeing import ABSENT
 from depal.cell.workplace import Settings
@@ -157,6 +159,22 @@ def test_where_the_reader_sees_no_product_of_the_note_a_person_says_which_it_is(
     assert cell.person.asked[0].choices == (gtin(1), gtin(2), "I cannot tell")
     assert cell.booked["b2"] == TROLLEYS[1]
     assert cell.times.shares(cell.ended)["waiting for people"] == pytest.approx(20.0)
+
+
+def test_a_box_that_no_way_leads_to_the_reader_with_is_what_a_person_says() -> None:
+    """The answer holds at once: the box is neither shown nor asked about again."""
+
+    def answer(question: Question) -> str:
+        return gtin(2) if question.id == "product/b2" else question.choices[0]
+
+    cell = Cell(2, unknown=(2,), reader=FakeReader([]), person=FakePerson(answer))
+    with mock.patch.object(Presenting, "show", mock.AsyncMock(return_value="no side can be shown")):
+        cell.works().assert_whole()
+    assert set(cell.fates.values()) == {STORED}
+    assert texts(cell) == ["Which product is the box in the gripper (b2)? No side can be shown."]
+    assert [step for step in cell.started if step == "kr60_show(b2)"] == ["kr60_show(b2)"]
+    assert cell.reader.readings == 0
+    assert cell.booked["b2"] == TROLLEYS[1]
 
 
 def test_a_box_whose_code_is_not_on_the_note_is_set_aside_without_a_question() -> None:

@@ -45,19 +45,23 @@ class Checking:
 
     async def show(self, context: Context) -> Report:
         """Carries the held box to the reader."""
-        box = BoxId(context.args["Box"])
+        box, work = BoxId(context.args["Box"]), self._work
         plan = await self._desk.presenting.show(box)
         if isinstance(plan, str):
             if GAVE_UP in plan and box not in self._searched:
                 self._searched.add(box)  # another search may find what this one has not
                 return Report(outcome=Outcome.FAILED, reason=plan)
-            return await self._ask(box, plan)
+            told = await self._ask(box, plan)
+            if told.outcome is Outcome.DONE:  # what a person says is no effect of a motion
+                work.tell(told.facts, "person")
+                return Report()
+            return told
         await context.checkpoint()
-        follow = self._work.ports.arm.follow
+        follow = work.ports.arm.follow
         self._desk.viewing.clears(box, plan.first)
         stopped = await follow(plan.first, self._guards.holding(lambda: context.stop_reason))
         if stopped is not None:
-            return await report_loss(self._work, box, stopped)
+            return await report_loss(work, box, stopped)
         self._shown = plan
         return Report(((ARM_AT, READER),))
 
