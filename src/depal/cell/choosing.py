@@ -150,8 +150,7 @@ def why_later(work: Workplace, box: Perceived) -> str | None:
     """Why a box should wait until nothing better is free; None where it need not."""
     if work.pile.remembered and work.tries.get(box.id):
         return TRIED
-    pile = work.pile
-    strange = (*pile.obstacles, *(pile.unborne if pile.remembered else ()))
+    strange = work.pile.strange
     if is_laden(box.shape, strange):
         return LADEN
     if work.pile.remembered and is_half_seen(work, box):

@@ -204,6 +204,14 @@ class Pile:
         """
         return () if self._deck is None else props(self.boxes, self._deck)
 
+    @property
+    def strange(self) -> tuple[OrientedBox, ...]:
+        """Where something stands that no box explains, in the cell frame.
+
+        What looks show, and, of a sight that errs, what must be below boxes that hang in the air.
+        """
+        return (*self.obstacles, *(self.unborne if self.remembered else ()))
+
     def is_fresh(self, box: BoxId) -> bool:
         """Whether only the last look has shown a box, there were looks before it, and they err."""
         return self.remembered and 1 < self._looks == self._since.get(box)

@@ -68,7 +68,7 @@ class Recovery:
         return self.found
 
     def _takes_over(self, hand: Hand) -> None:
-        held = Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
+        held = Held.again(hand)
         if not self._work.departures.has_left(hand.box):
             self._work.lifted(held)  # the controller ended between the lift and its report
             return
@@ -180,7 +180,7 @@ class Recovery:
         if place is None:
             return
         aside = place.split("/", maxsplit=1)[0] == work.layout.aside
-        work.held = Held(box, hand.grasp, hand.size, hand.mass, hand.beyond)
+        work.held = Held.again(hand)
         reason = work.aside_reasons.get(box, "set aside") if aside else ""
         work.ended(box, Fate.SET_ASIDE if aside else Fate.STORED, place, reason)
         if aside:

@@ -116,6 +116,14 @@ class Held:
     beyond: Vector3 = (0.0, 0.0, 0.0)
     beside: Vector3 = (0.0, 0.0, 0.0)
 
+    @classmethod
+    def again(cls, hand: Hand) -> "Held":
+        """Of the step that the ledger has last told of: what it is does not tell where it hangs.
+
+        How far it may lie beside where it was seen is not written: as far as it may be longer.
+        """
+        return cls(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond, hand.beyond)
+
 
 @dataclass(frozen=True, slots=True)
 class Difference:

@@ -131,7 +131,7 @@ class Picking:
         return astray(
             beyond_seen(work.delivery, box.shape.size),
             unsized=box.id in work.pile.unsized,
-            beside=goes_on_beside(box.shape, work.pile.obstacles),
+            beside=goes_on_beside(box.shape, work.pile.strange),
         )
 
     def _wide(self, box: Perceived) -> Vector3:

@@ -50,10 +50,12 @@ def with_room(
     if not pile.remembered or all(isinstance(box, Recognition) for box in others):
         return None
 
+    strange = pile.strange
+
     def shape_of(box: Perceived) -> OrientedBox:
         if isinstance(box, Recognition):
             return box.shape
-        beside = goes_on_beside(box.shape, pile.obstacles, above=STACKED)
+        beside = goes_on_beside(box.shape, strange, above=STACKED)
         return room_beside(box, work.delivery, unsized=box.id in pile.unsized, beside=beside)
 
     return promises.scene(pile, held, zones, shape_of)

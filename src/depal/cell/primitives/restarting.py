@@ -91,7 +91,7 @@ class Restarting:
             return ()
         vacuum = any(value > 0.0 for value in work.ports.gripper.vacuum().values())
         if hand is not None and hand.phase is Phase.GRASPING and vacuum and work.held is None:
-            work.lifted(Held(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond))
+            work.lifted(Held.again(hand))
             work.tell([(f"{hand.box}.taken", True)], "arm")
         desk.promises.next_start = None
         self._clears(begins=True)

@@ -59,7 +59,7 @@ class Weighing:
         """How far the surface of a box without a name went on beside it, at either end [m]."""
         pile = self._work.pile
         named = not pile.remembered or isinstance(plan.box, Recognition)
-        return EXACT if named else goes_on_beside(plan.box.shape, pile.obstacles)
+        return EXACT if named else goes_on_beside(plan.box.shape, pile.strange)
 
     def torn(self, plan: PickPlan, sealed: Mapping[str, float]) -> str | None:
         """What hangs on some of the cups that had sealed is held beside its middle.
