@@ -28,15 +28,14 @@ BESIDE = 0.03
 edges lie elsewhere [m]."""
 
 
-def astray(beyond: Vector3, *, unsized: bool = False, beside: Vector3 = EXACT) -> Vector3:
+def astray(beyond: Vector3, *, unsized: bool = False) -> Vector3:
     """How much farther out a box may be than it seems: no less than looks err [m].
 
     Args:
         beyond: how much longer it may be along its own axes, at either end [m].
         unsized: whether an edge of it is a guess: then so is where it ends below.
-        beside: how far the surface goes on beside it, at either end [m].
     """
-    a, b, c = np.maximum(beyond, beside).tolist()
+    a, b, c = beyond
     return max(a, SIDEWAYS), max(b, SIDEWAYS), max(c, UPRIGHT if unsized else 0.0)
 
 

@@ -19,6 +19,7 @@ from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Policy, Workplace
 from depal.domain import BoxId, Detection, Perceived, Recognition, Request
 from depal.geometry import OrientedBox
+from depal.motion.grasping import EXACT
 from depal.selection import Blocking, BlockingGraph, Decision, Refused, ScoreRule, select
 from depal.selection.access import NO_WAY, AccessGraph
 from depal.selection.stability import Watch
@@ -134,16 +135,18 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
 
 
 def why_vague(work: Workplace, box: Perceived) -> str | None:
-    """Why a box that nobody could name may be no box, or two: the note knows no such size.
+    """Why a box that nobody could name may be no box, or two.
 
-    A sight that is exact sees no two as one: what has an odd size there is shown to the reader.
+    The note knows no such size, or it is seen across the seam of two: where such a one hangs in the
+    hand nobody would know. A sight that is exact sees no two as one: what has an odd size there is
+    shown to the reader.
     """
     if not work.pile.remembered:
         return None
     unsized = box.id in work.pile.unsized
-    if not work.delivery.lines or plausible(work.delivery, box.shape.size, unsized=unsized):
-        return None
-    return ODD
+    if work.delivery.lines and not plausible(work.delivery, box.shape.size, unsized=unsized):
+        return ODD
+    return STRADDLES if goes_on_beside(box.shape, work.pile.strange) != EXACT else None
 
 
 def why_later(work: Workplace, box: Perceived) -> str | None:
@@ -162,8 +165,6 @@ def _why_later_unnamed(
     work: Workplace, box: Perceived, strange: Collection[OrientedBox]
 ) -> str | None:
     """The same of a box of which no print tells how large it is."""
-    if work.pile.remembered and any(goes_on_beside(box.shape, strange)):
-        return STRADDLES
     beyond = beyond_seen(work.delivery, box.shape.size)
     if work.pile.remembered and may_reach_under(box.shape, strange, beyond):
         return UNDER
@@ -202,15 +203,18 @@ def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
     return box.id not in work.left_behind and unclear
 
 
-UNSEEN, ODD = "the last look did not show it", "no product of the note has its size"
+UNSEEN, ODD, STRADDLES = (
+    "the last look did not show it",
+    "no product of the note has its size",
+    "its surface goes on beside it, and no box explains that",
+)
 """Reasons that another look may take away."""
 
 GAVE_UP = "no free way"
 """How a motion's reason begins where the search for it has come to its limit."""
 
-LADEN, STRADDLES, UNDER, HALF_SEEN, GUESSED, FRESH, TRIED = (
+LADEN, UNDER, HALF_SEEN, GUESSED, FRESH, TRIED = (
     "something that nobody knows may stand on it",
-    "its surface goes on beside it, and no box explains that",
     "it may go on below something higher that nobody knows",
     "what stands before it may hide a part of it",
     "one of its edges is a guess",

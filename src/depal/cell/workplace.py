@@ -106,7 +106,6 @@ class Held:
         size: of the box along its own axes [m].
         mass: as felt at the flange [kg].
         beyond: how much longer the box may be along its axes, at either end [m].
-        beside: how far it may lie beside where it was seen, along them [m].
     """
 
     box: BoxId
@@ -114,15 +113,11 @@ class Held:
     size: Vector3
     mass: float
     beyond: Vector3 = (0.0, 0.0, 0.0)
-    beside: Vector3 = (0.0, 0.0, 0.0)
 
     @classmethod
     def again(cls, hand: Hand) -> "Held":
-        """Of the step that the ledger has last told of: what it is does not tell where it hangs.
-
-        How far it may lie beside where it was seen is not written: as far as it may be longer.
-        """
-        return cls(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond, hand.beyond)
+        """Of the step that the ledger has last told of."""
+        return cls(hand.box, hand.grasp, hand.size, hand.mass, hand.beyond)
 
 
 @dataclass(frozen=True, slots=True)

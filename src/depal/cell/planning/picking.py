@@ -18,7 +18,6 @@ from depal.cell.planning.promises import Promises
 from depal.cell.planning.timing import rebased, stands_at
 from depal.cell.planning.wary import with_room
 from depal.cell.rules import TAKING, Rules, rules_on
-from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Detection, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox, Vector3
@@ -128,11 +127,8 @@ class Picking:
         if isinstance(box, Recognition):
             pallet, tried = work.layout.pallet.cell_from_pallet, bool(work.tries.get(box.id))
             return named_astray(box.shape, pallet, tried=tried)
-        return astray(
-            beyond_seen(work.delivery, box.shape.size),
-            unsized=box.id in work.pile.unsized,
-            beside=goes_on_beside(box.shape, work.pile.strange),
-        )
+        unsized = box.id in work.pile.unsized
+        return astray(beyond_seen(work.delivery, box.shape.size), unsized=unsized)
 
     def _wide(self, box: Perceived) -> Vector3:
         """The same and the room around it that a box is taken straight out of.

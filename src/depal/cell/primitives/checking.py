@@ -134,7 +134,7 @@ class Checking:
             self._tell_of_the_like(product, held.size, mass)
         size, beyond = told_size(product.size, held.size)
         if work.pile.remembered:  # what it is does not tell where it was
-            beyond = astray(beyond, unsized=held.beyond[2] > 0.0, beside=held.beside)
+            beyond = astray(beyond, unsized=held.beyond[2] > 0.0)
         grasp = resized(held.grasp, held.size, size)
         work.held = replace(held, size=size, grasp=grasp, beyond=beyond)
         work.steps(Phase.HELD)

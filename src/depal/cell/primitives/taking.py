@@ -129,7 +129,7 @@ class Taking:
         beyond = self._weighing.beyond(plan, mass)
         if early > HIGHER:  # it stands as low as it was thought to, and is so much higher
             beyond = (*beyond[:2], max(beyond[2], early))
-        self._work.lifted(Held(box, plan.grasp, size, mass, beyond, self._weighing.beside(plan)))
+        self._work.lifted(Held(box, plan.grasp, size, mass, beyond))
         self._weighing.doubt_identity(plan, mass)
         out = self._desk.feeling.out(plan) if early > RISEN else None
         lost = None if out is None else await ports.arm.follow(out, self._guards.holding())

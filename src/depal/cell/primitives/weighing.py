@@ -17,7 +17,6 @@ from depal.cell.identity import (
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.feeling import seals
-from depal.cell.straddling import goes_on_beside
 from depal.cell.workplace import Workplace
 from depal.domain import Recognition
 from depal.geometry import Vector3
@@ -52,14 +51,8 @@ class Weighing:
         if isinstance(plan.box, Recognition):
             pallet, tried = work.layout.pallet.cell_from_pallet, bool(work.tries.get(box))
             return named_astray(plan.box.shape, pallet, tried=tried)
-        unsized, beside = box in work.pile.unsized, self.beside(plan)
-        return astray(beyond_seen(work.delivery, size, mass), unsized=unsized, beside=beside)
-
-    def beside(self, plan: PickPlan) -> Vector3:
-        """How far the surface of a box without a name went on beside it, at either end [m]."""
-        pile = self._work.pile
-        named = not pile.remembered or isinstance(plan.box, Recognition)
-        return EXACT if named else goes_on_beside(plan.box.shape, pile.strange)
+        unsized = box in work.pile.unsized
+        return astray(beyond_seen(work.delivery, size, mass), unsized=unsized)
 
     def torn(self, plan: PickPlan, sealed: Mapping[str, float]) -> str | None:
         """What hangs on some of the cups that had sealed is held beside its middle.
