@@ -57,12 +57,15 @@ def hangs_as_thought(held: Held, work: Workplace) -> bool:
     """Whether a held box can be what it was taken for, so that its middle is where it should be.
 
     One that weighs like no product of its size is another box, or only a part of one was seen;
-    so it may be where a longer product weighs the same, and where cups found no hold before.
+    so it may be where a longer product weighs the same, and where cups found no hold before: at the
+    same face.
     """
     delivery = work.delivery
     if not (work.pile.remembered and delivery.lines):
         return True
-    if max(held.beyond[:2]) > LOOSE or work.tries.get(held.box):
+    failed = work.doubted.get(held.box, frozenset())
+    vain = work.tries.get(held.box) and (not failed or held.grasp.approach in failed)
+    if max(held.beyond[:2]) > LOOSE or vain:
         return False
     product = work.product_of(held.box)
     if product is not None:
