@@ -1,5 +1,6 @@
 """A box that turns out to be another than was seen: nobody knows how it hangs, or where it ends."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from unittest import mock
 
@@ -7,9 +8,12 @@ from cells_at_work import PERSON, STORED, Cell, Remembering, gtin, name, note, p
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from depal.cell.departures import Fate
+from depal.cell.planning.carrying import Carrying
 from depal.cell.planning.loads import UNSURE, WARY, hangs_as_thought, load_of
+from depal.cell.planning.plans import CarryPlan
 from depal.cell.workplace import Held, Workplace
-from depal.domain import Approach, Grasp
+from depal.domain import Approach, BoxId, Grasp, PlaceId
 from depal.geometry import Pose
 from depal.ports import View
 
@@ -74,3 +78,33 @@ def test_what_weighs_like_nothing_of_its_size_or_may_be_longer_or_let_go_moves_s
     assert load is not None
     sharply = 1.0 if beyond == 0.0 else WARY
     assert load.pace == (sharply if sure else UNSURE)
+
+
+def test_from_where_a_person_has_taken_a_box_out_of_the_gripper_the_arm_gets_clear() -> None:
+    """Among others, no place takes the box: before the next look the arm stands in the open."""
+    cell = Cell(2)
+    find, stands = Carrying.find_place, list[bool]()
+
+    async def none_for_the_first(
+        carrying: Carrying, box: BoxId, places: Sequence[PlaceId]
+    ) -> CarryPlan | str:
+        return "no room" if box == name(1) else await find(carrying, box, places)
+
+    def in_the_open() -> bool:
+        return not list(cell.desk.clearing.ways_out())
+
+    ended = Workplace.ended
+
+    def ending(work: Workplace, box: BoxId, fate: Fate, *rest: PlaceId, **more: str) -> None:
+        if fate is Fate.BY_PERSON:
+            stands.append(in_the_open())
+        ended(work, box, fate, *rest, **more)
+
+    with (
+        mock.patch.object(Carrying, "find_place", none_for_the_first),
+        mock.patch.object(Workplace, "ended", ending),
+    ):
+        cell.works().assert_whole()
+    assert cell.fates == {"b1": PERSON, "b2": STORED}
+    assert "Please take it out of the gripper" in cell.person.asked[0].text
+    assert stands == [True]

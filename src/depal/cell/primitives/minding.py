@@ -1,6 +1,10 @@
 """The primitives of `recover` and `ask_person`: a person decides."""
 
+from contextlib import suppress
+
+from depal.cell.clearing import get_clear
 from depal.cell.departures import Fate
+from depal.cell.halting import HaltedError
 from depal.cell.planning.desk import Desk
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.workplace import Workplace
@@ -54,7 +58,10 @@ class Minding:
         return Report(((f"{box}.decision", answer),))
 
     async def ask_to_take(self, context: Context) -> Report:
-        """Asks a person to take a box out of the gripper, and lets go of it."""
+        """Asks a person to take a box out of the gripper, and lets go of it.
+
+        Then the arm draws back as it would with the box: from among others no way may lead on.
+        """
         work, box = self._work, BoxId(context.args["Box"])
         fault = work.stranded.get(box, "there is no place for it")
         question = Question(
@@ -66,6 +73,8 @@ class Minding:
         await work.questions.ask(question)
         await work.ports.gripper.release()
         work.unplaceable.discard(box)
+        with suppress(HaltedError):  # it has stopped: after the start it gets clear anyway
+            await get_clear(work, self._desk)
         work.ended(box, Fate.BY_PERSON, reason=work.aside_reasons.get(box, fault))
         return Report(((f"{box}.taken", False),))
 
