@@ -110,6 +110,12 @@ def note(boxes: int, mass: float = 4.0) -> Delivery:
     return Delivery("tiny", EURO_PALLET, lines)
 
 
+def note_of(*sizes: Vector3) -> Delivery:
+    """A note of one case of each of some sizes: products g0, g1, and so on."""
+    products = [Product(Gtin(f"g{k}"), "g", size, 4.0) for k, size in enumerate(sizes)]
+    return Delivery("d", EURO_PALLET, tuple(DeliveryLine(each, 1) for each in products))
+
+
 def homes(boxes: int) -> dict[Gtin, tuple[PlaceId, ...]]:
     """A place for every product, each in a trolley of its own."""
     return {gtin(n): (TROLLEYS[n - 1],) for n in range(1, boxes + 1)}

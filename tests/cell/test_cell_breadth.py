@@ -5,7 +5,7 @@ from unittest import mock
 
 import numpy as np
 import pytest
-from cells_at_work import DECK, Cell, Remembering, pile
+from cells_at_work import DECK, Cell, Remembering, note_of, pile
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -15,13 +15,9 @@ from depal.cell.sight.naming import ALIKE
 from depal.cell.sight.unexplained import ALONG
 from depal.cell.workplace import Held, Workplace
 from depal.domain import (
-    EURO_PALLET,
     BoxId,
-    Delivery,
-    DeliveryLine,
     Detection,
     Gtin,
-    Product,
     Recognition,
 )
 from depal.geometry import OrientedBox, Pose, Vector3
@@ -37,12 +33,6 @@ end = st.sampled_from((-1, 1))
 shifts = st.tuples(*[st.floats(-0.005, 0.005)] * 2)
 
 
-def note(*found: Vector3) -> Delivery:
-    """A note of cases of some sizes."""
-    products = [Product(Gtin(f"g{k}"), "g", size, 4.0) for k, size in enumerate(found)]
-    return Delivery("d", EURO_PALLET, tuple(DeliveryLine(each, 1) for each in products))
-
-
 @given(sizes, st.tuples(off, off, off), st.floats(-3, 3), st.tuples(end, end))
 def test_a_box_lies_in_the_room_that_it_may_take_whichever_end_was_seen_right(
     size: Vector3, errors: Vector3, yaw: float, ends: tuple[int, int]
@@ -50,7 +40,9 @@ def test_a_box_lies_in_the_room_that_it_may_take_whichever_end_was_seen_right(
     """It was taken for another product, turned either way, and stands as high as it does."""
     seen = (size[0] + errors[0], size[1] + errors[1], size[2] + errors[2])
     pose = Pose.from_yaw((1.8, 0.1, 0.5), yaw)
-    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, seen)), note(size, seen))
+    room = as_broad_as_it_may_be(
+        Detection(BoxId("b"), OrientedBox(pose, seen)), note_of(size, seen)
+    )
     shift = [way * (a - b) / 2 for way, a, b in zip(ends, seen, size, strict=False)]
     shift = [*shift, (size[2] - seen[2]) / 2]
     true = OrientedBox(pose @ Pose((shift[0], shift[1], shift[2])), size)
@@ -64,11 +56,11 @@ def test_what_has_the_size_of_no_product_reaches_as_far_as_its_surroundings_coun
 ) -> None:
     """Two boxes, one behind the other, may be seen as one that is less deep than both together."""
     shape = OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), odd)
-    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note((0.09, 0.09, 0.09)))
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note_of((0.09, 0.09, 0.09)))
     assert min(np.subtract(room.size, odd)[:2]) >= 2 * ALONG
     assert top_of(room) == pytest.approx(top_of(shape) + ALONG)
     assert bottom_of(room) == pytest.approx(bottom_of(shape))
-    assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note()).size < room.size
+    assert as_broad_as_it_may_be(Detection(BoxId("b"), shape), note_of()).size < room.size
 
 
 @given(sizes, st.floats(-3, 3))
@@ -76,7 +68,7 @@ def test_what_has_a_products_size_by_a_guess_reaches_as_far(size: Vector3, yaw: 
     """An edge was not seen: three small boxes may be one that is larger (dev-024)."""
     box = Detection(BoxId("b"), OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), size))
     guessed, seen = (
-        as_broad_as_it_may_be(box, note(size), unsized=is_so) for is_so in (True, False)
+        as_broad_as_it_may_be(box, note_of(size), unsized=is_so) for is_so in (True, False)
     )
     assert min(np.subtract(guessed.size, size)[:2]) >= 2 * ALONG
     assert (np.array(guessed.size) >= seen.size).all()
@@ -90,14 +82,14 @@ def test_a_nearly_square_box_lies_in_its_room_turned_either_way(
     """It is seen turned by a quarter; what is clearly longer than broad is not (dev-049)."""
     size, pose = (along, along - less, high), Pose.from_yaw((1.8, 0.1, 0.5), 0.3)
     seen = (along - less, along, high)
-    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, seen)), note(size))
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, seen)), note_of(size))
     assert (np.array(room.size[:2]) >= along + 2 * SIDEWAYS - 1e-9).all()
     shift = [way * (a - b) / 2 for way, a, b in zip(ends, seen, size, strict=False)]
     true = OrientedBox(pose @ Pose((shift[0], shift[1], 0.0)), size)
     local = np.array([room.pose.inverse.apply(tuple(corner)) for corner in true.corners.tolist()])
     assert (np.abs(local) <= np.array(room.size) / 2 + 1e-9).all()
     long = (along + 0.2, along, high)
-    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, long)), note(long))
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), OrientedBox(pose, long)), note_of(long))
     assert room.size[1] == pytest.approx(along + 2 * SIDEWAYS)
 
 
@@ -107,7 +99,7 @@ def test_what_would_have_to_lie_on_its_side_has_the_size_of_no_product(
 ) -> None:
     """Boxes stand upright: what looks like one on its side was seen wrongly (dev-013)."""
     lying = Detection(BoxId("b"), OrientedBox.upright((1.8, 0.1, 0.5), (high, low, middle)))
-    room = as_broad_as_it_may_be(lying, note((middle, low, high)))
+    room = as_broad_as_it_may_be(lying, note_of((middle, low, high)))
     assert min(np.subtract(room.size, lying.shape.size)[:2]) >= 2 * ALONG
     assert top_of(room) == pytest.approx(top_of(lying.shape) + ALONG)
 
@@ -119,7 +111,7 @@ def test_what_is_roughly_as_large_as_a_product_may_be_higher_than_it_looks(
     """What has its size is as high as it looks, or as that product is (dev-026, dev-037)."""
     seen = (size[0] + errors[0], size[1] + errors[1], size[2] + errors[2])
     shape = OrientedBox(Pose.from_yaw((1.8, 0.1, 0.5), yaw), seen)
-    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note(size))
+    room = as_broad_as_it_may_be(Detection(BoxId("b"), shape), note_of(size))
     turned = (size[1], size[0], size[2])
     off_by = min(np.abs(np.subtract(way, seen)).max() for way in (size, turned))
     assert bottom_of(room) == pytest.approx(bottom_of(shape))
@@ -183,7 +175,7 @@ def test_what_bears_a_name_and_was_tried_in_vain_is_carried_as_if_it_lay_the_oth
 def test_a_name_tells_how_broad_a_box_is(size: Vector3) -> None:
     """What goes by a name is as it looks."""
     box = Recognition(BoxId("b"), OrientedBox.upright((1.8, 0.0, 0.5), size), Gtin("g0"))
-    assert as_broad_as_it_may_be(box, note(size)) == box.shape
+    assert as_broad_as_it_may_be(box, note_of(size)) == box.shape
 
 
 @pytest.mark.parametrize("side", [-1, 1])
@@ -195,7 +187,7 @@ def test_a_tool_keeps_clear_of_what_a_higher_neighbour_may_be(side: int) -> None
     beside = OrientedBox.upright((1.5, side * 0.255, DECK + high[2] / 2), high)
     true = OrientedBox.upright((1.5, side * 0.245, DECK + high[2] / 2), broad)
     box = Recognition(BoxId("b1"), lying, Gtin("g0"))
-    cell.work.delivery = note(low, high, broad)
+    cell.work.delivery = note_of(low, high, broad)
     hits = []
     for remembered in (False, True):
         seen = (box, Detection(BoxId("b2"), beside))

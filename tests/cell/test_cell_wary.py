@@ -1,31 +1,25 @@
 """A held box leaves a pile clear of all that unnamed neighbours may be, where there is a way."""
 
+import math
 from collections.abc import Callable
 from dataclasses import replace
 from unittest import mock
 
 import numpy as np
 import pytest
-from cells_at_work import DECK, STORED, Cell, Remembering, note, pile
-from hypothesis import given
+from cells_at_work import DECK, STORED, Cell, Remembering, note, note_of, pile
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from depal.cell.breadth import BESIDE, as_broad_as_it_may_be, room_beside
+from depal.cell.planning.picking import RUBBING
 from depal.cell.planning.planner import Planner
 from depal.cell.planning.plans import Load, PickPlan
 from depal.cell.planning.wary import with_room
-from depal.domain import (
-    EURO_PALLET,
-    BoxId,
-    Delivery,
-    DeliveryLine,
-    Detection,
-    Gtin,
-    Product,
-    Recognition,
-)
+from depal.domain import BoxId, Detection, Gtin, Recognition
 from depal.geometry import OrientedBox, Pose
 from depal.motion.collision import Scene
+from depal.motion.grasping import in_a_row
 from depal.motion.moves import OPEN, Berth, NoMotion, Put
 from depal.ports import View
 
@@ -62,14 +56,7 @@ def lifted_beside(*, unnamed: bool) -> tuple[Cell, PickPlan]:
     """A low box with a name is taken from beside a higher one."""
     cell = Cell(1)
     low, seen, true = (0.29, 0.19, 0.18), (0.18, 0.25, 0.25), (0.21, 0.25, 0.27)
-    cell.work.delivery = Delivery(
-        "d",
-        EURO_PALLET,
-        tuple(
-            DeliveryLine(Product(Gtin(f"g{k}"), "g", size, 5.0), 1)
-            for k, size in enumerate((low, seen, true))
-        ),
-    )
+    cell.work.delivery = note_of(low, seen, true)
     box = Recognition(
         BoxId("b1"), OrientedBox.upright((1.6, 0.0, DECK + low[2] / 2), low), Gtin("g0")
     )
@@ -106,6 +93,22 @@ def test_where_no_way_out_is_clear_of_all_that_it_may_be_a_box_goes_near() -> No
         *_, near = lifted_beside(unnamed=True)
     *_, named = lifted_beside(unnamed=False)
     assert len(near.pick.out.path) == len(named.pick.out.path) < len(plain.pick.out.path)
+
+
+@given(across=st.floats(0.08, 0.3), errs=st.booleans())
+@settings(max_examples=15, deadline=None)
+def test_what_hangs_on_one_row_of_cups_goes_slowly_out_of_a_pile_that_may_be_seen_wrongly(
+    across: float, *, errs: bool
+) -> None:
+    """What rubs against it across the row peels it off (dev-040, dev-051)."""
+    size, cell = (0.3, across, 0.2), Cell(1)
+    cell.work.delivery = note_of(size)
+    box = Recognition(BoxId("b1"), OrientedBox.upright((1.6, 0.0, DECK + 0.1), size), Gtin("g0"))
+    cell.work.pile.see(View(0.0, (box,), remembered=errs))
+    plan = cell.desk.picking.try_pick(box)
+    assert not isinstance(plan, str)
+    slowly = errs and in_a_row(plan.grasp, cell.work.layout.tool)
+    assert plan.pick.out.most == (RUBBING if slowly else math.inf)
 
 
 def puts_of(unknown: list[int], *, shut: int) -> tuple[Cell, list[Scene]]:

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from depal.cell.files import shipped_cell
 from depal.domain import FRONT, LOWER, Approach, Grasp
 from depal.geometry import OrientedBox, Vector3
-from depal.motion.grasping import grasps, refusal, static_share
+from depal.motion.grasping import grasps, in_a_row, refusal, static_share
 from depal.motion.grasping.candidates import share_of
 from depal.motion.grasping.fitting import faces_of, plates_for, ways_on
 
@@ -53,6 +53,17 @@ def test_every_cup_lies_wholly_on_one_face_and_looks_into_it(
             assert centre[axis] == pytest.approx(-normal[axis] * size[axis] / 2, abs=1e-9)
             for other in {0, 1, 2} - {axis}:
                 assert abs(centre[other]) + 0.035 <= size[other] / 2 + 1e-8
+
+
+@given(sizes, masses)
+def test_cups_are_in_a_row_where_no_three_of_them_span_an_area(size: Vector3, mass: float) -> None:
+    """One and two always are."""
+    for grasp in ways(size, mass):
+        centres = [np.array(centre) for centre, _ in cups_in_box(grasp)]
+        areas = [
+            np.linalg.norm(np.cross(b - a, c - a)) for a, b, c in itertools.combinations(centres, 3)
+        ]
+        assert in_a_row(grasp, TOOL) == (max(areas, default=0.0) < 1e-6)
 
 
 @given(sizes, masses, yaws)

@@ -22,7 +22,7 @@ from depal.cell.workplace import Workplace
 from depal.domain import Approach, BoxId, Detection, Grasp, Perceived, PlaceId, Recognition
 from depal.geometry import OrientedBox, Vector3
 from depal.motion.collision import Scene
-from depal.motion.grasping import EXACT, Holding, grasps
+from depal.motion.grasping import EXACT, Holding, grasps, in_a_row
 from depal.motion.moves import OPEN, Doubts, NoMotion, Part, Pick
 from depal.motion.planning.straight import straight
 from depal.ports import Trajectory
@@ -38,6 +38,10 @@ FEELING = 0.25
 
 SHORT = 0.018
 """So far before its plane of touch the tool stops at a front that no print has named [m]."""
+
+RUBBING = 0.21
+"""No faster a box that hangs on one row of cups is taken out of a pile whose boxes may not be where
+they seem: what rubs against it across the row peels it off [m/s]."""
 
 MOVED = 0.008
 """A plan is good for a box that is seen this far from where it was planned for [m]."""
@@ -184,9 +188,11 @@ class Picking:
         rules: Rules,
         beyond: Vector3 = EXACT,
     ) -> PickPlan | str:
-        planner = self._planner
+        planner, work = self._planner, self._work
+        if work.pile.remembered and in_a_row(pick.grasp, work.layout.tool):
+            pick = replace(pick, out=replace(pick.out, most=RUBBING))
         empty = planner.mover.checker(scene, OPEN, folded=pick.grasp.folded)
-        holding = Holding.of(pick.grasp, mass, self._work.layout.tool, size=box.shape.size)
+        holding = Holding.of(pick.grasp, mass, work.layout.tool, size=box.shape.size)
         feeling = self._feels(box, pick.grasp)
         *free, down = pick.approach
         before = self._before(down) if self._may_be_nearer(box, pick.grasp) else None

@@ -139,11 +139,22 @@ def _inertia(grasp: Grasp, mass: float, size: Vector3) -> Floats:
     return about
 
 
+def in_a_row(grasp: Grasp, tool: Tool) -> bool:
+    """Whether its cups lie on one line, about which hardly anything holds against a moment."""
+    centres = _centres(grasp, tool)
+    return bool(np.linalg.matrix_rank(centres - centres[0], tol=tool.suction.cup_radius) <= 1)
+
+
 def _group(grasp: Grasp, tool: Tool) -> CupGroup:
+    return CupGroup.of(_centres(grasp, tool), tool.suction.cup_radius, tool.suction.friction)
+
+
+def _centres(grasp: Grasp, tool: Tool) -> Floats:
+    """(n, 2) of its cups in their plane [m]."""
     face_from_flange = tool.module(grasp.cups[0][0], folded=grasp.folded).flange_from_face.inverse
     centres = []
     for name, cup in grasp.cups:
         module = tool.module(name, folded=grasp.folded)
         point = module.flange_from_face.apply((0.0, *module.cups[cup]))
         centres.append(face_from_flange.apply(point)[1:])
-    return CupGroup.of(np.array(centres), tool.suction.cup_radius, tool.suction.friction)
+    return np.array(centres)
