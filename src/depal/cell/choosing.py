@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from depal.cell.accessing import ways_in_cell
 from depal.cell.apart import standing_apart
 from depal.cell.half_seen import may_reach_behind
-from depal.cell.identity import beyond_seen, plausible
+from depal.cell.identity import ALIKE, beyond_seen, plausible
 from depal.cell.laden import is_laden, may_reach_under
 from depal.cell.planning.desk import Desk
 from depal.cell.planning.facing import pallet_front
@@ -137,16 +137,25 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
 def why_vague(work: Workplace, box: Perceived) -> str | None:
     """Why a box that nobody could name may be no box, or two.
 
-    The note knows no such size, or it is seen across the seam of two: where such a one hangs in the
-    hand nobody would know. A sight that is exact sees no two as one: what has an odd size there is
-    shown to the reader.
+    The note knows no such size, it is seen across the seam of two, or cups found no hold on the top
+    that was concluded from its front, which then is a part of a longer one: where such a one hangs
+    in the hand nobody would know. A sight that is exact sees no two as one: what has an odd size
+    there is shown to the reader.
     """
     if not work.pile.remembered:
         return None
     unsized = box.id in work.pile.unsized
     if work.delivery.lines and not plausible(work.delivery, box.shape.size, unsized=unsized):
         return ODD
-    return STRADDLES if goes_on_beside(box.shape, work.pile.strange) != EXACT else None
+    if goes_on_beside(box.shape, work.pile.strange) != EXACT:
+        return STRADDLES
+    return NO_TOP if _is_long(work, box) and work.has_no_such_top(box.id) else None
+
+
+def _is_long(work: Workplace, box: Perceived) -> bool:
+    """Whether it makes a difference which way a box lies."""
+    edges = [edge for each in plausible(work.delivery, box.shape.size) for edge in each.size[:2]]
+    return bool(edges) and max(edges) - min(box.shape.size[:2]) > ALIKE
 
 
 def why_later(work: Workplace, box: Perceived) -> str | None:
@@ -203,10 +212,11 @@ def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
     return box.id not in work.left_behind and unclear
 
 
-UNSEEN, ODD, STRADDLES = (
+UNSEEN, ODD, STRADDLES, NO_TOP = (
     "the last look did not show it",
     "no product of the note has its size",
     "its surface goes on beside it, and no box explains that",
+    "cups found no hold on its top, so how it lies is not sure",
 )
 """Reasons that another look may take away."""
 

@@ -50,6 +50,9 @@ from depal.ports import (
 FIRST = 10.0
 """A priority above that of any request."""
 
+LEAKED = 2
+"""Where cups have leaked on a box's top so often, there is no such top."""
+
 PALLET = "pallet"
 """The name of the pallet's thing in the task files."""
 
@@ -190,6 +193,7 @@ class Workplace:
             end: a person takes out what hangs there.
         stranded: why a box in the gripper comes into no place at all.
         tries: how often the gripper had no hold of a box that it was at.
+        leaks: how often some cups sealed on a box's top and others did not.
         strangers: what the reader saw on boxes that are not on the note.
         homeless: boxes for which the store's system has named no place.
         seen_to: whether a person has looked for what the note promises and no look shows.
@@ -221,6 +225,7 @@ class Workplace:
     unplaceable: set[BoxId] = field(default_factory=set)
     stranded: dict[BoxId, str] = field(default_factory=dict)
     tries: dict[BoxId, int] = field(default_factory=dict)
+    leaks: Counter[BoxId] = field(default_factory=Counter)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     homeless: set[BoxId] = field(default_factory=set)
     seen_to: bool = False
@@ -333,6 +338,10 @@ class Workplace:
         """A box is not there, a person says: neither now nor later, as long as it looks so."""
         self.pile.forget(box.id, self.now)
         self.feedback.deny(box.id)
+
+    def has_no_such_top(self, box: BoxId) -> bool:
+        """Whether a box's top is not where it seems: some cups found hold on it, others did not."""
+        return self.leaks[box] >= LEAKED
 
     def mistrust(self, box: BoxId, reasons: Iterable[str]) -> None:
         """A box in the gripper is not what it was taken for: it will be shown to the reader."""

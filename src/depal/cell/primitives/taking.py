@@ -3,7 +3,7 @@
 import asyncio
 from contextlib import suppress
 
-from depal.cell.choosing import VAIN
+from depal.cell.choosing import VAIN, why_vague
 from depal.cell.guards import Guards
 from depal.cell.halting import HaltedError
 from depal.cell.hand import Hand, Phase
@@ -12,12 +12,12 @@ from depal.cell.planning.desk import Desk
 from depal.cell.planning.feeling import HIGHER, RISEN
 from depal.cell.planning.plans import PickPlan
 from depal.cell.primitives.falling import report_loss
-from depal.cell.primitives.feeling import CLOSER, sucked
+from depal.cell.primitives.feeling import CLOSER, seals, sucked
 from depal.cell.primitives.weighing import Weighing
 from depal.cell.primitives.withdrawing import out_of_view
 from depal.cell.standing import Firmness
 from depal.cell.workplace import Held, Workplace
-from depal.domain import BoxId, Recognition
+from depal.domain import Approach, BoxId, Recognition
 from depal.executive.engine import Report
 from depal.executive.events import Outcome
 from depal.executive.runtime import Context
@@ -113,6 +113,8 @@ class Taking:
         self._work.modules.tried(box, {name for name, _ in plan.grasp.cups}, ports.gripper.vacuum())
         if not came:
             self._weighing.tell_a_seam(plan)
+            if plan.grasp.approach is Approach.VERTICAL and seals(self._work):
+                self._work.leaks[box] += 1
             return await self._let_go(plan, "the vacuum did not come")
         early = self._desk.feeling.early(plan) if plan.feeling else 0.0
         sealed = ports.gripper.vacuum()
@@ -145,10 +147,14 @@ class Taking:
         await out_of_view(work, self._desk)
         work.feedback.doubt()
         work.pile.see(await work.ports.sight.look())
-        if work.pile.get(box) is None or box in work.pile.hidden:
+        seen = work.pile.get(box)
+        if seen is None or box in work.pile.hidden:
             self._pass_over(box)
             return f"box {box} is not seen on the pallet any more"
-        return None
+        vague = None if isinstance(seen, Recognition) else why_vague(work, seen)
+        if vague is not None:
+            self._pass_over(box)
+        return vague
 
     def _pass_over(self, box: BoxId) -> None:
         """The box may be chosen anew: that counts as a try, so that it ends however often."""
