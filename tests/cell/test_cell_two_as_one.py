@@ -4,10 +4,11 @@ import asyncio
 from dataclasses import dataclass, replace
 
 import pytest
-from cells_at_work import DECK, Cell, Remembering, name
+from cells_at_work import DECK, PERSON, STORED, Cell, Remembering, gtin, name
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from depal.cell.choosing import NO_TOP
 from depal.cell.departures import Fate
 from depal.cell.feedback import Feedback
 from depal.domain import (
@@ -21,7 +22,7 @@ from depal.domain import (
     Recognition,
 )
 from depal.geometry import OrientedBox
-from depal.ports.fakes import FakeGripper
+from depal.ports.fakes import FakeGripper, FakeReader
 
 TORN_AFTER = 0.4
 """After the valves were opened the arm lifts what it holds by then [s]."""
@@ -135,3 +136,46 @@ def test_a_box_that_does_not_come_up_is_torn_at_twice_and_not_more() -> None:
     cell, _ = seen_as_one(12.0, Stuck(weight=12.0))
     assert len([step for step in cell.started if step.startswith("kr60_grasp")]) == 2
     assert cell.fates.get(name(1)) is not Fate.STORED
+
+
+@dataclass(slots=True)
+class Leaking(FakeGripper):
+    """Of the cups some seal and others do not, in the first grips.
+
+    Attributes:
+        leaks: in so many.
+    """
+
+    leaks: int = 0
+
+    async def suck(self, cups: tuple[Cup, ...]) -> bool:
+        """Makes some vacuum."""
+        return await FakeGripper.suck(self, cups) and len(self.grips) > self.leaks
+
+    def load(self) -> float:
+        """Nothing hangs on cups that leak."""
+        return FakeGripper.load(self) if len(self.grips) > self.leaks else 0.0
+
+
+@pytest.mark.parametrize(
+    ("leaks", "width", "fate"), [(1, 0.42, STORED), (2, 0.27, STORED), (2, 0.42, PERSON)]
+)
+def test_a_long_box_on_whose_top_cups_leak_twice_is_left_to_a_person(
+    leaks: int, width: float, fate: Fate
+) -> None:
+    """Its front is a part of a longer one, and it would hang beside its middle (dev-006).
+
+    Of one that is about as long as it is broad that would make no difference.
+    """
+    size = (0.25, width, 0.22)
+    shape = OrientedBox.upright((1.55, 0.0, DECK + 0.11), size)
+    cell = Cell(1, gripper=Leaking(leaks=leaks), reader=FakeReader((("product-1",),) * 8))
+    cell.sight = Remembering([(Detection(name(1), shape),)])
+    cell.work.ports = replace(cell.work.ports, sight=cell.sight)
+    line = DeliveryLine(Product(gtin(1), "carton", (width, 0.25, 0.22), 4.0), 1)
+    cell.work.delivery = Delivery("one", EURO_PALLET, (line,))
+    assert cell.works().fates == {name(1): fate}
+    reasons = {each.reason for each in cell.work.departures.sequence}
+    assert reasons == {NO_TOP if fate is PERSON else ""}
+    grasps = [step for step in cell.started if step.startswith("kr60_grasp")]
+    assert len(grasps) == (2 if fate is PERSON else leaks + 1)

@@ -80,6 +80,22 @@ def test_what_weighs_like_nothing_of_its_size_or_may_be_longer_or_let_go_moves_s
     assert load.pace == (sharply if sure else UNSURE)
 
 
+@settings(max_examples=20)
+@given(st.floats(0.0, 0.04), st.booleans())
+def test_what_a_print_or_a_code_has_told_moves_as_fast_as_any_where_it_is_seen_closely(
+    beyond: float, told: bool
+) -> None:
+    """Its middle is where it should be, to a centimetre."""
+    cell = Cell(1, unknown=[1])
+    cell.work.held = held(4.0, beyond)
+    cell.work.pile.see(View(0.0, pile(1, [1]), remembered=True))
+    product = note(1).lines[0].product if told else None
+    with mock.patch.object(Workplace, "product_of", return_value=product):
+        load = load_of(name(1), cell.work, None)
+    assert load is not None
+    assert load.pace == (1.0 if beyond == 0.0 or (told and beyond <= 0.01) else WARY)
+
+
 def test_from_where_a_person_has_taken_a_box_out_of_the_gripper_the_arm_gets_clear() -> None:
     """Among others, no place takes the box: before the next look the arm stands in the open."""
     cell = Cell(2)

@@ -66,12 +66,13 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         stays = _stays(work, graph, box, firmness)
         if stays is not None:
             return stays
-        doubts = why_later(work, box)
+        doubts = why_later(work, box) or still_refused(work, box)
         if doubts is not None and not doubtful:
             waiting.add(box.id)
             return Refused(doubts)
         plan = shaky.get(box.id) or desk.picking.try_pick(box)
         if isinstance(plan, str):
+            work.refusals.keep(box, work.pile, plan)
             return Refused(plan)
         refusal = watch.refusal(box.id) if work.settings.guard else None
         if refusal is not None:
@@ -129,9 +130,13 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
         return work.left_behind[box.id]
     if box.id in work.pile.hidden:
         return UNSEEN
-    if work.pile.remembered and work.tries.get(box.id, 0) >= VAIN:
+    if isinstance(box, Recognition):
+        reason = work.impossible.get(box.gtin)
+    else:
+        reason = why_vague(work, box)
+    if reason is None and work.pile.remembered and work.tries.get(box.id, 0) >= VAIN:
         return f"{TRIED} {VAIN} times"
-    return work.impossible.get(box.gtin) if isinstance(box, Recognition) else why_vague(work, box)
+    return reason
 
 
 def why_vague(work: Workplace, box: Perceived) -> str | None:
@@ -180,6 +185,11 @@ def _why_later_unnamed(
     if box.id in work.pile.unsized:
         return GUESSED
     return FRESH if work.pile.is_fresh(box.id) else None
+
+
+def still_refused(work: Workplace, box: Perceived) -> str | None:
+    """Why no way led to a box when it was tried last, where nothing near it has changed since."""
+    return work.refusals.still(box, work.pile) if work.pile.remembered else None
 
 
 def is_half_seen(work: Workplace, box: Perceived) -> bool:

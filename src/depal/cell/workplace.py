@@ -16,6 +16,7 @@ from depal.cell.modules import Modules
 from depal.cell.outbox import Outbox
 from depal.cell.pile import Deck, Pile
 from depal.cell.questions import Questions
+from depal.cell.refusals import Refusals
 from depal.cell.wishes import Wishes
 from depal.domain import (
     Approach,
@@ -194,6 +195,7 @@ class Workplace:
         stranded: why a box in the gripper comes into no place at all.
         tries: how often the gripper had no hold of a box that it was at.
         leaks: how often some cups sealed on a box's top and others did not.
+        refusals: boxes that no way led to.
         strangers: what the reader saw on boxes that are not on the note.
         homeless: boxes for which the store's system has named no place.
         seen_to: whether a person has looked for what the note promises and no look shows.
@@ -226,6 +228,7 @@ class Workplace:
     stranded: dict[BoxId, str] = field(default_factory=dict)
     tries: dict[BoxId, int] = field(default_factory=dict)
     leaks: Counter[BoxId] = field(default_factory=Counter)
+    refusals: Refusals = field(default_factory=Refusals)
     strangers: dict[BoxId, str] = field(default_factory=dict)
     homeless: set[BoxId] = field(default_factory=set)
     seen_to: bool = False

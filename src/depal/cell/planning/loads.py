@@ -19,6 +19,10 @@ where their middle is; what accelerates them is about a third and an eighth."""
 LOOSE = 0.04
 """Nobody knows where the middle is of a box that may be longer by more than this [m]."""
 
+CLOSE = 0.01
+"""And everybody does of one whose product a print or a code has told, where it may reach no farther
+than this beyond where it seems to [m]."""
+
 HEAVIEST = 600.0
 """An unknown box is not expected to be denser than this [kg/m^3]."""
 
@@ -50,7 +54,8 @@ def pace_of(held: Held, work: Workplace) -> float:
     """The share of the speed at which a held box may move, by how well it is known how it hangs."""
     if not hangs_as_thought(held, work):
         return UNSURE
-    return 1.0 if held.beyond == EXACT else WARY
+    told = work.product_of(held.box) is not None and max(held.beyond) <= CLOSE
+    return 1.0 if told or held.beyond == EXACT else WARY
 
 
 def hangs_as_thought(held: Held, work: Workplace) -> bool:
