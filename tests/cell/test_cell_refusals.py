@@ -26,9 +26,9 @@ def at(number: int, along: float, *, named: bool) -> Perceived:
     return Recognition(name(number), shape, gtin(1)) if named else Detection(name(number), shape)
 
 
-@given(spots, spots, st.booleans())
+@given(before=spots, after=spots, named=st.booleans())
 def test_a_refusal_holds_while_the_same_boxes_stand_near(
-    before: Sequence[float], after: Sequence[float], named: bool
+    *, before: Sequence[float], after: Sequence[float], named: bool
 ) -> None:
     """What stands farther off may come and go; a box that got a name is another neighbour."""
     cell, (box,) = Cell(1), pile(1, [1])

@@ -81,9 +81,9 @@ def test_what_weighs_like_nothing_of_its_size_or_may_be_longer_or_let_go_moves_s
 
 
 @settings(max_examples=20)
-@given(st.floats(0.0, 0.04), st.booleans())
+@given(beyond=st.floats(0.0, 0.04), told=st.booleans())
 def test_what_a_print_or_a_code_has_told_moves_as_fast_as_any_where_it_is_seen_closely(
-    beyond: float, told: bool
+    *, beyond: float, told: bool
 ) -> None:
     """Its middle is where it should be, to a centimetre."""
     cell = Cell(1, unknown=[1])

@@ -130,13 +130,15 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
         return work.left_behind[box.id]
     if box.id in work.pile.hidden:
         return UNSEEN
-    if isinstance(box, Recognition):
-        reason = work.impossible.get(box.gtin)
-    else:
-        reason = why_vague(work, box)
+    reason = why_impossible(work, box) or why_vague(work, box)
     if reason is None and work.pile.remembered and work.tries.get(box.id, 0) >= VAIN:
         return f"{TRIED} {VAIN} times"
     return reason
+
+
+def why_impossible(work: Workplace, box: Perceived) -> str | None:
+    """Why no box of a product can be taken, where a print has told which it is."""
+    return work.impossible.get(box.gtin) if isinstance(box, Recognition) else None
 
 
 def why_vague(work: Workplace, box: Perceived) -> str | None:
@@ -147,7 +149,7 @@ def why_vague(work: Workplace, box: Perceived) -> str | None:
     in the hand nobody would know. A sight that is exact sees no two as one: what has an odd size
     there is shown to the reader.
     """
-    if not work.pile.remembered:
+    if not work.pile.remembered or isinstance(box, Recognition):
         return None
     unsized = box.id in work.pile.unsized
     if work.delivery.lines and not plausible(work.delivery, box.shape.size, unsized=unsized):
@@ -215,7 +217,7 @@ def may_pass(work: Workplace, box: Perceived, reason: str) -> bool:
         reason: why; what no box explains may be explained by the next look, and a way that was
             not found may be found by another search, or beside boxes that are named by then.
     """
-    vague = not isinstance(box, Recognition) and why_vague(work, box) is not None
+    vague = why_vague(work, box) is not None
     unclear = vague or box.id in work.pile.hidden or STRANGE in reason or GAVE_UP in reason
     words = set(re.findall(r"\w+", reason)) if work.pile.remembered else set()
     unclear |= any(str(each.id) in words for each in work.pile.boxes if isinstance(each, Detection))

@@ -151,7 +151,7 @@ class Taking:
         if seen is None or box in work.pile.hidden:
             self._pass_over(box)
             return f"box {box} is not seen on the pallet any more"
-        vague = None if isinstance(seen, Recognition) else why_vague(work, seen)
+        vague = why_vague(work, seen)
         if vague is not None:
             self._pass_over(box)
         return vague
