@@ -1,9 +1,10 @@
 """What unknown surfaces above a box mean: it may carry them."""
 
-from hypothesis import given
+import pytest
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from depal.cell.laden import ENDS, HIGHER, OVER, is_laden, may_reach_under
+from depal.cell.laden import ENDS, HIGHER, OVER, OWN, is_laden, may_reach_under, raised
 from depal.cell.pile import COARSE, HANGING, Deck, props
 from depal.domain import BoxId, Detection
 from depal.geometry import OrientedBox
@@ -35,6 +36,27 @@ def test_what_is_not_higher_than_a_box_does_not_stand_on_it(reach: float, above:
     """It is its own top, a bit off, or what it stands beside."""
     assert not is_laden(BOX, [solid(reach, above)])
     assert not is_laden(BOX, [])
+
+
+@given(st.floats(-0.2, 0.3), st.floats(-0.2, 0.5), st.floats(0.0, 0.2))
+def test_what_stands_on_a_box_a_little_higher_may_be_its_own_top(
+    reach: float, above: float, room: float
+) -> None:
+    """A hand that passes keeps clear up to there, all over it (dev-009); what is much higher is not.
+
+    Of the room that the box may take otherwise nothing is lost.
+    """
+    assume(min(abs(above - HIGHER), abs(above - OWN), abs(reach - OVER)) > 0.001)
+    around = OrientedBox.from_corner((1.38, -0.15, 0.3), (0.44, 0.3, 0.2 + room))
+    out = raised(around, BOX, [solid(reach, above)])
+    own = reach > OVER and HIGHER < above < OWN
+    (least, most), (low, high) = (
+        (each.corners.min(axis=0), each.corners.max(axis=0)) for each in (around, out)
+    )
+    assert low == pytest.approx(least)
+    assert high[:2] == pytest.approx(most[:2])
+    assert high[2] == pytest.approx(max(most[2], TOP + above) if own else most[2])
+    assert raised(around, BOX, []) == around
 
 
 @given(st.floats(-0.3, 0.3), st.floats(HIGHER + 0.001, 0.5))

@@ -10,6 +10,7 @@ import numpy as np
 
 from depal.cell.breadth import as_broad_as_it_may_be, astray, named_astray
 from depal.cell.identity import beyond_seen, strange_height
+from depal.cell.laden import raised
 from depal.cell.planning.facing import pallet_front
 from depal.cell.planning.loads import expected_mass, expected_masses, heaviest
 from depal.cell.planning.planner import Planner
@@ -113,10 +114,14 @@ class Picking:
         if not pile.remembered or all(isinstance(other, Recognition) for other in pile.boxes):
             return None
 
+        strange = pile.strange
+
         def shape_of(other: Perceived) -> OrientedBox:
-            if other.id == box.id:
+            if other.id == box.id or isinstance(other, Recognition):
                 return other.shape
-            return as_broad_as_it_may_be(other, delivery, unsized=other.id in pile.unsized)
+            unsized = other.id in pile.unsized
+            room = as_broad_as_it_may_be(other, delivery, unsized=unsized)
+            return raised(room, other.shape, strange)
 
         return self._promises.scene(pile, zones=zones, shape_of=shape_of)
 

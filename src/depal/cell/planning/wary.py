@@ -3,6 +3,7 @@
 from collections.abc import Set as AbstractSet
 
 from depal.cell.breadth import room_beside
+from depal.cell.laden import raised
 from depal.cell.planning.plans import Load
 from depal.cell.planning.promises import Promises
 from depal.cell.straddling import STACKED, goes_on_beside
@@ -56,6 +57,8 @@ def with_room(
         if isinstance(box, Recognition):
             return box.shape
         beside = goes_on_beside(box.shape, strange, above=STACKED)
-        return room_beside(box, work.delivery, unsized=box.id in pile.unsized, beside=beside)
+        unsized = box.id in pile.unsized
+        room = room_beside(box, work.delivery, unsized=unsized, beside=beside)
+        return raised(room, box.shape, strange)
 
     return promises.scene(pile, held, zones, shape_of)
