@@ -42,7 +42,7 @@ def test_what_is_not_higher_than_a_box_does_not_stand_on_it(reach: float, above:
 def test_what_stands_on_a_box_a_little_higher_may_be_its_own_top(
     reach: float, above: float, room: float
 ) -> None:
-    """A hand that passes keeps clear up to there, all over it (dev-009); what is much higher is not.
+    """A hand keeps clear up to there, all over it (dev-009); what is much higher is another one.
 
     Of the room that the box may take otherwise nothing is lost.
     """
