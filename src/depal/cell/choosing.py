@@ -66,7 +66,7 @@ def choose(work: Workplace, desk: Desk) -> Choice:
         stays = _stays(work, graph, box, firmness)
         if stays is not None:
             return stays
-        doubts = why_later(work, box) or still_refused(work, box)
+        doubts = why_later(work, box) or _still_refused(work, box)
         if doubts is not None and not doubtful:
             waiting.add(box.id)
             return Refused(doubts)
@@ -130,13 +130,13 @@ def why_left(work: Workplace, box: Perceived) -> str | None:
         return work.left_behind[box.id]
     if box.id in work.pile.hidden:
         return UNSEEN
-    reason = why_impossible(work, box) or why_vague(work, box)
+    reason = _why_impossible(work, box) or why_vague(work, box)
     if reason is None and work.pile.remembered and work.tries.get(box.id, 0) >= VAIN:
         return f"{TRIED} {VAIN} times"
     return reason
 
 
-def why_impossible(work: Workplace, box: Perceived) -> str | None:
+def _why_impossible(work: Workplace, box: Perceived) -> str | None:
     """Why no box of a product can be taken, where a print has told which it is."""
     return work.impossible.get(box.gtin) if isinstance(box, Recognition) else None
 
@@ -189,7 +189,7 @@ def _why_later_unnamed(
     return FRESH if work.pile.is_fresh(box.id) else None
 
 
-def still_refused(work: Workplace, box: Perceived) -> str | None:
+def _still_refused(work: Workplace, box: Perceived) -> str | None:
     """Why no way led to a box when it was tried last, where nothing near it has changed since."""
     return work.refusals.still(box, work.pile) if work.pile.remembered else None
 

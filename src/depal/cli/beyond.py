@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from depal.cli.output import Dask, JsonFile, Keep, PlotFile, Seed, Workers
+from depal.cli.output import Dask, JsonFile, Keep, PlotFile, Seed, Weight, Workers
 from depal.cli.study import Pallets, check_targets, finish
 from depal.errors import SettingError
 
@@ -131,7 +131,7 @@ def stability(  # noqa: PLR0913, PLR0917 - a command's options
     states: Annotated[
         int, typer.Option(help="Random states that are compared with MuJoCo.", min=1)
     ] = 600,
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.2,
+    w: Weight = 0.2,
     threshold: Annotated[
         float, typer.Option(help="The guard's least margin, in g.", min=0.0)
     ] = 0.03,

@@ -40,6 +40,13 @@ TaskFiles = Annotated[
     ),
 ]
 
+Weight = Annotated[float, typer.Option("--w", help="The weight of the requests, in [0, 1].")]
+Policy = Annotated[str, typer.Option(help="Which boxes may be taken: paper, or access.")]
+Perception = Annotated[str, typer.Option(help="Where boxes come from: camera, or truth.")]
+Severity = Annotated[
+    str, typer.Option(help="How far cameras and prints are from ideal: easy, normal, hard.")
+]
+
 _PIPE_WIDTH = 132
 
 

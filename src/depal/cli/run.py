@@ -6,7 +6,25 @@ from typing import Annotated
 import typer
 from rich.console import Console
 
-from depal.cli.output import JsonFile, Seed, TaskFiles, console
+from depal.cli.output import (
+    JsonFile,
+    Perception,
+    Policy,
+    Seed,
+    Severity,
+    TaskFiles,
+    Weight,
+    console,
+)
+
+Guard = Annotated[
+    bool,
+    typer.Option("--guard", help="Let boxes wait whose removal leaves a pile with < 0.03 g."),
+]
+Record = Annotated[
+    Path | None,
+    typer.Option(help="Keep a record with pictures in this folder.", show_default=False),
+]
 
 
 def run(  # noqa: PLR0913, PLR0917 - a command's options
@@ -34,26 +52,14 @@ def run(  # noqa: PLR0913, PLR0917 - a command's options
     faults: Annotated[
         str, typer.Option(help="A file of faults that strike.", show_default=False)
     ] = "",
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
-    policy: Annotated[
-        str, typer.Option(help="Which boxes may be taken: paper, or access.")
-    ] = "paper",
-    guard: Annotated[  # noqa: FBT002 - a flag
-        bool,
-        typer.Option("--guard", help="Let boxes wait whose removal leaves a pile with < 0.03 g."),
-    ] = False,
-    perception: Annotated[
-        str, typer.Option(help="Where boxes come from: camera, or truth.")
-    ] = "camera",
-    severity: Annotated[
-        str, typer.Option(help="How far cameras and prints are from ideal: easy, normal, hard.")
-    ] = "normal",
+    w: Weight = 0.5,
+    policy: Policy = "paper",
+    guard: Guard = False,  # noqa: FBT002 - a flag
+    perception: Perception = "camera",
+    severity: Severity = "normal",
     seed: Seed = 0,
     speed: Annotated[float, typer.Option(help="Share of the arm's full speed, in (0, 1].")] = 1.0,
-    record: Annotated[
-        Path | None,
-        typer.Option(help="Keep a record with pictures in this folder.", show_default=False),
-    ] = None,
+    record: Record = None,
     json_file: JsonFile = None,
 ) -> None:
     """Empty a pallet in the simulated cell: physics, motions, tasks and choices."""

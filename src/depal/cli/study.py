@@ -6,7 +6,19 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from depal.cli.output import Dask, JsonFile, Keep, PlotFile, Seed, Workers, console
+from depal.cli.output import (
+    Dask,
+    JsonFile,
+    Keep,
+    Perception,
+    PlotFile,
+    Policy,
+    Seed,
+    Severity,
+    Weight,
+    Workers,
+    console,
+)
 from depal.errors import SettingError
 
 if TYPE_CHECKING:
@@ -99,7 +111,7 @@ def fig8(
 @study.command()
 def fig9(
     pallets: Pallets = 1_000,
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.9,
+    w: Weight = 0.9,
     seed: Seed = 0,
     workers: Workers = 1,
     dask: Dask = None,
@@ -123,7 +135,7 @@ def fig9(
 def case2(
     draws: Annotated[int, typer.Option(help="Jittered draws per layout.", min=0)] = 1_000,
     seed: Seed = 0,
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.2,
+    w: Weight = 0.2,
     json_file: JsonFile = None,
     plot: PlotFile = None,
 ) -> None:
@@ -166,7 +178,7 @@ def unload(
     requests: Annotated[
         Path | None, typer.Option(help="A file of requests, known from the start.")
     ] = None,
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
+    w: Weight = 0.5,
     json_file: JsonFile = None,
 ) -> None:
     """Real deliveries taken apart by Algorithm 1 on geometry alone, checked by a referee."""
@@ -196,16 +208,10 @@ def throughput(  # noqa: PLR0913, PLR0917 - a command's options
     cell: Annotated[
         str, typer.Option(help="A cell file, or the name of one that ships.")
     ] = "default",
-    w: Annotated[float, typer.Option(help="The weight of the requests, in [0, 1].")] = 0.5,
-    perception: Annotated[
-        str, typer.Option(help="Where boxes come from: camera, or truth.")
-    ] = "truth",
-    severity: Annotated[
-        str, typer.Option(help="How far cameras and prints are from ideal.")
-    ] = "normal",
-    policy: Annotated[
-        str, typer.Option(help="Which boxes may be taken: paper, or access.")
-    ] = "paper",
+    w: Weight = 0.5,
+    perception: Perception = "truth",
+    severity: Severity = "normal",
+    policy: Policy = "paper",
     workers: Workers = 1,
     dask: Dask = None,
     keep: Keep = None,

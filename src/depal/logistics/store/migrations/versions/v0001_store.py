@@ -9,25 +9,13 @@ down_revision = None
 
 def upgrade() -> None:
     """Forward."""
-    op.create_table(
-        "deliveries",
-        sa.Column("id", sa.String(), nullable=False),
-        sa.Column("length", sa.Double(), nullable=False),
-        sa.Column("width", sa.Double(), nullable=False),
-        sa.Column("deck", sa.Double(), nullable=False),
-        sa.PrimaryKeyConstraint("id"),
-    )
-    op.create_table(
-        "movements",
-        sa.Column("number", sa.Integer(), nullable=False),
-        sa.Column("id", sa.String(), nullable=False),
-        sa.Column("box", sa.String(), nullable=False),
-        sa.Column("gtin", sa.String(), nullable=True),
-        sa.Column("place", sa.String(), nullable=False),
-        sa.Column("at", sa.Double(), nullable=False),
-        sa.PrimaryKeyConstraint("number"),
-        sa.UniqueConstraint("id"),
-    )
+    _goods()
+    _deliveries()
+    _work()
+
+
+def _goods() -> None:
+    """What the store has, and where."""
     op.create_table(
         "places",
         sa.Column("id", sa.String(), nullable=False),
@@ -46,6 +34,52 @@ def upgrade() -> None:
         sa.Column("height", sa.Double(), nullable=False),
         sa.Column("mass", sa.Double(), nullable=False),
         sa.PrimaryKeyConstraint("gtin"),
+    )
+    op.create_table(
+        "product_places",
+        sa.Column("gtin", sa.String(), nullable=False),
+        sa.Column("rank", sa.Integer(), nullable=False),
+        sa.Column("place", sa.String(), nullable=False),
+        sa.ForeignKeyConstraint(["gtin"], ["products.gtin"]),
+        sa.ForeignKeyConstraint(["place"], ["places.id"]),
+        sa.PrimaryKeyConstraint("gtin", "rank"),
+    )
+
+
+def _deliveries() -> None:
+    """What arrives."""
+    op.create_table(
+        "deliveries",
+        sa.Column("id", sa.String(), nullable=False),
+        sa.Column("length", sa.Double(), nullable=False),
+        sa.Column("width", sa.Double(), nullable=False),
+        sa.Column("deck", sa.Double(), nullable=False),
+        sa.PrimaryKeyConstraint("id"),
+    )
+    op.create_table(
+        "delivery_lines",
+        sa.Column("delivery", sa.String(), nullable=False),
+        sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("gtin", sa.String(), nullable=False),
+        sa.Column("count", sa.Integer(), nullable=False),
+        sa.ForeignKeyConstraint(["delivery"], ["deliveries.id"]),
+        sa.ForeignKeyConstraint(["gtin"], ["products.gtin"]),
+        sa.PrimaryKeyConstraint("delivery", "number"),
+    )
+
+
+def _work() -> None:
+    """What is wanted, and what has been moved."""
+    op.create_table(
+        "movements",
+        sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("id", sa.String(), nullable=False),
+        sa.Column("box", sa.String(), nullable=False),
+        sa.Column("gtin", sa.String(), nullable=True),
+        sa.Column("place", sa.String(), nullable=False),
+        sa.Column("at", sa.Double(), nullable=False),
+        sa.PrimaryKeyConstraint("number"),
+        sa.UniqueConstraint("id"),
     )
     op.create_table(
         "projections",
@@ -69,22 +103,3 @@ def upgrade() -> None:
         sa.UniqueConstraint("key"),
     )
     op.create_index("requests_by_state", "requests", ["state", "arrived"], unique=False)
-    op.create_table(
-        "delivery_lines",
-        sa.Column("delivery", sa.String(), nullable=False),
-        sa.Column("number", sa.Integer(), nullable=False),
-        sa.Column("gtin", sa.String(), nullable=False),
-        sa.Column("count", sa.Integer(), nullable=False),
-        sa.ForeignKeyConstraint(["delivery"], ["deliveries.id"]),
-        sa.ForeignKeyConstraint(["gtin"], ["products.gtin"]),
-        sa.PrimaryKeyConstraint("delivery", "number"),
-    )
-    op.create_table(
-        "product_places",
-        sa.Column("gtin", sa.String(), nullable=False),
-        sa.Column("rank", sa.Integer(), nullable=False),
-        sa.Column("place", sa.String(), nullable=False),
-        sa.ForeignKeyConstraint(["gtin"], ["products.gtin"]),
-        sa.ForeignKeyConstraint(["place"], ["places.id"]),
-        sa.PrimaryKeyConstraint("gtin", "rank"),
-    )

@@ -9,6 +9,13 @@ down_revision = "0001"
 
 def upgrade() -> None:
     """Forward."""
+    _people()
+    _runs()
+    _rest()
+
+
+def _people() -> None:
+    """Who may do what, and who did."""
     op.create_table(
         "accounts",
         sa.Column("name", sa.String(), nullable=False),
@@ -40,6 +47,30 @@ def upgrade() -> None:
         sa.PrimaryKeyConstraint("digest"),
     )
     op.create_table(
+        "tokens",
+        sa.Column("id", sa.String(), nullable=False),
+        sa.Column("digest", sa.String(), nullable=False),
+        sa.Column("name", sa.String(), nullable=False),
+        sa.Column("created", sa.Double(), nullable=False),
+        sa.Column("expires", sa.Double(), nullable=False),
+        sa.Column("revoked", sa.Double(), nullable=True),
+        sa.PrimaryKeyConstraint("id"),
+        sa.UniqueConstraint("digest"),
+    )
+    op.create_table(
+        "sessions",
+        sa.Column("digest", sa.String(), nullable=False),
+        sa.Column("account", sa.String(), nullable=False),
+        sa.Column("created", sa.Double(), nullable=False),
+        sa.Column("seen", sa.Double(), nullable=False),
+        sa.ForeignKeyConstraint(["account"], ["accounts.name"]),
+        sa.PrimaryKeyConstraint("digest"),
+    )
+
+
+def _runs() -> None:
+    """What is emptied, and when."""
+    op.create_table(
         "questions",
         sa.Column("id", sa.String(), nullable=False),
         sa.Column("run", sa.Integer(), nullable=False),
@@ -64,6 +95,22 @@ def upgrade() -> None:
         sa.PrimaryKeyConstraint("id"),
     )
     op.create_table(
+        "runs",
+        sa.Column("number", sa.Integer(), nullable=False),
+        sa.Column("delivery", sa.String(), nullable=False),
+        sa.Column("state", sa.String(), nullable=False),
+        sa.Column("by", sa.String(), nullable=False),
+        sa.Column("began", sa.Double(), nullable=False),
+        sa.Column("ended", sa.Double(), nullable=True),
+        sa.Column("result", sa.String(), nullable=False),
+        sa.ForeignKeyConstraint(["delivery"], ["queue.id"]),
+        sa.PrimaryKeyConstraint("number"),
+    )
+
+
+def _rest() -> None:
+    """What belongs to products, requests and commands."""
+    op.create_table(
         "repeats",
         sa.Column("who", sa.String(), nullable=False),
         sa.Column("key", sa.String(), nullable=False),
@@ -78,17 +125,6 @@ def upgrade() -> None:
         sa.Column("value", sa.String(), nullable=False),
         sa.Column("version", sa.Integer(), nullable=False),
         sa.PrimaryKeyConstraint("name"),
-    )
-    op.create_table(
-        "tokens",
-        sa.Column("id", sa.String(), nullable=False),
-        sa.Column("digest", sa.String(), nullable=False),
-        sa.Column("name", sa.String(), nullable=False),
-        sa.Column("created", sa.Double(), nullable=False),
-        sa.Column("expires", sa.Double(), nullable=False),
-        sa.Column("revoked", sa.Double(), nullable=True),
-        sa.PrimaryKeyConstraint("id"),
-        sa.UniqueConstraint("digest"),
     )
     op.create_table(
         "pictures",
@@ -111,25 +147,4 @@ def upgrade() -> None:
         sa.Column("version", sa.Integer(), nullable=False),
         sa.ForeignKeyConstraint(["key"], ["requests.key"]),
         sa.PrimaryKeyConstraint("key"),
-    )
-    op.create_table(
-        "runs",
-        sa.Column("number", sa.Integer(), nullable=False),
-        sa.Column("delivery", sa.String(), nullable=False),
-        sa.Column("state", sa.String(), nullable=False),
-        sa.Column("by", sa.String(), nullable=False),
-        sa.Column("began", sa.Double(), nullable=False),
-        sa.Column("ended", sa.Double(), nullable=True),
-        sa.Column("result", sa.String(), nullable=False),
-        sa.ForeignKeyConstraint(["delivery"], ["queue.id"]),
-        sa.PrimaryKeyConstraint("number"),
-    )
-    op.create_table(
-        "sessions",
-        sa.Column("digest", sa.String(), nullable=False),
-        sa.Column("account", sa.String(), nullable=False),
-        sa.Column("created", sa.Double(), nullable=False),
-        sa.Column("seen", sa.Double(), nullable=False),
-        sa.ForeignKeyConstraint(["account"], ["accounts.name"]),
-        sa.PrimaryKeyConstraint("digest"),
     )
